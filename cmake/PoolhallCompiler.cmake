@@ -1,0 +1,19 @@
+# Compiler flags of every target.
+#
+# -ffp-contract=off is part of the determinism contract (physics/README.md): a fused
+# multiply-add rounds once where the source rounds twice.
+add_library(poolhall_flags INTERFACE)
+target_compile_options(poolhall_flags INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wnon-virtual-dtor -Werror
+  -ffp-contract=off -fno-fast-math)
+
+if(POOLHALL_SANITIZE_ADDRESS)
+  # GCC 12 reports false -Wmaybe-uninitialized positives in sanitized code.
+  add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all
+    -fno-omit-frame-pointer -Wno-maybe-uninitialized)
+  add_link_options(-fsanitize=address,undefined)
+endif()
+if(POOLHALL_SANITIZE_THREAD)
+  add_compile_options(-fsanitize=thread -fno-omit-frame-pointer -Wno-tsan)
+  add_link_options(-fsanitize=thread)
+endif()

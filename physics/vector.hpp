@@ -1,0 +1,62 @@
+// Vectors of the table frame: x across the table, y along it, z up. Plain values, no units of
+// their own.
+#pragma once
+
+namespace poolhall::physics {
+
+template <class Real>
+struct Vec2 {
+  Real x{};
+  Real y{};
+
+  friend constexpr bool operator==(const Vec2&, const Vec2&) = default;
+};
+
+template <class Real>
+struct Vec3 {
+  Real x{};
+  Real y{};
+  Real z{};
+
+  friend constexpr bool operator==(const Vec3&, const Vec3&) = default;
+};
+
+template <class Real>
+[[nodiscard]] constexpr Vec2<Real> operator+(const Vec2<Real>& p, const Vec2<Real>& q) {
+  return {p.x + q.x, p.y + q.y};
+}
+template <class Real>
+[[nodiscard]] constexpr Vec2<Real> operator-(const Vec2<Real>& p, const Vec2<Real>& q) {
+  return {p.x - q.x, p.y - q.y};
+}
+template <class Real>
+[[nodiscard]] constexpr Vec2<Real> operator*(const Real& k, const Vec2<Real>& p) {
+  return {k * p.x, k * p.y};
+}
+template <class Real>
+[[nodiscard]] constexpr Real dot(const Vec2<Real>& p, const Vec2<Real>& q) {
+  return p.x * q.x + p.y * q.y;
+}
+
+template <class Real>
+[[nodiscard]] constexpr Vec3<Real> operator+(const Vec3<Real>& p, const Vec3<Real>& q) {
+  return {p.x + q.x, p.y + q.y, p.z + q.z};
+}
+template <class Real>
+[[nodiscard]] constexpr Vec3<Real> operator-(const Vec3<Real>& p, const Vec3<Real>& q) {
+  return {p.x - q.x, p.y - q.y, p.z - q.z};
+}
+template <class Real>
+[[nodiscard]] constexpr Vec3<Real> operator*(const Real& k, const Vec3<Real>& p) {
+  return {k * p.x, k * p.y, k * p.z};
+}
+template <class Real>
+[[nodiscard]] constexpr Real dot(const Vec3<Real>& p, const Vec3<Real>& q) {
+  return p.x * q.x + p.y * q.y + p.z * q.z;
+}
+template <class Real>
+[[nodiscard]] constexpr Vec3<Real> cross(const Vec3<Real>& p, const Vec3<Real>& q) {
+  return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+
+}  // namespace poolhall::physics

@@ -1,0 +1,13 @@
+// The sub-commands. Each is declared here and defined in <name>_command.cpp; its callback sets
+// the program's exit code: 0 done, 1 could not be done, 2 wrong input, 3 differs or incomplete.
+#pragma once
+
+namespace CLI {
+class App;
+}
+
+namespace poolhall::app {
+
+void add_commands(CLI::App& app, int& exit_code);
+
+}  // namespace poolhall::app
