@@ -1,0 +1,112 @@
+// What a tournament asks of the server that plays its matches. The other side of the door is a
+// driver that knows the schedule (a pure function of results) and nothing of sockets or SQL.
+//
+//   host.enter({.tournament = id, .name = "Anna", .house_bot = "greedy"});
+//   host.on_match_over([&](const MatchOutcome& outcome) { next_pairings(outcome); });
+//   host.start_match({.tournament = id, .pairing = 7, .agents = {"Anna", "Bob"}, .games = 4});
+//
+// Everything here is called on the network thread (Server::post), and the callbacks come there.
+// Orders are idempotent: the key of a match is (tournament, pairing). After a restart a driver
+// hands in again whatever its schedule says is due: a match that is going on goes on, one that is
+// over is reported again at once, and only an unknown one begins.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "rules/game_state.hpp"
+
+namespace poolhall::net {
+
+// The terms under which the games of a match are played.
+struct GameTerms {
+  rules::RuleSet rules = rules::RuleSet::eight_ball;
+  std::string table = "olympiad";      // preset
+  std::string materials = "olympiad";  // preset
+  std::string noise = "olympiad";      // none, low, olympiad, high, variable
+  bool noise_hidden = false;           // agents are not told the level
+  double rack_gap = 0;                 // m
+  double rack_jitter = 0;              // m
+  std::chrono::microseconds clock{std::chrono::seconds{600}};  // each player, a game
+  std::chrono::microseconds increment{0};                      // added after each turn
+  std::optional<std::chrono::microseconds> shot_cap{};         // longest turn; then a foul
+  std::uint32_t max_refusals = 3;                              // in a turn
+};
+
+// One pairing: games between two agents. agents[0] breaks in the first game, then in turns.
+struct MatchOrder {
+  std::string tournament;     // id from open_tournament
+  std::uint32_t pairing = 0;  // unique in the tournament
+  std::array<std::string, 2> agents;
+  std::uint32_t games = 1;
+  GameTerms terms{};
+  std::uint64_t seed = 0;  // of the racks; game i of the match uses seed and i
+};
+
+struct GameOutcome {
+  std::uint64_t game = 0;                 // id, as in the database and on the wire
+  std::uint32_t number = 0;               // 0-based in its match; a replayed void game keeps it
+  std::uint32_t breaker = 0;              // index into MatchOrder::agents
+  std::optional<std::uint32_t> winner{};  // index into MatchOrder::agents; unset: drawn
+  rules::EndReason reason = rules::EndReason::conceded;
+  std::uint32_t shots = 0;
+};
+
+struct MatchOutcome {
+  std::string tournament;
+  std::uint32_t pairing = 0;
+  std::uint64_t match = 0;         // id
+  std::vector<GameOutcome> games;  // scored games only, by number
+};
+
+struct TournamentEntry {
+  std::string tournament;
+  std::string name;                        // of the agent
+  std::optional<std::string> house_bot{};  // played by a process that the server starts
+};
+
+enum class TournamentStatus : std::uint8_t { open, running, finished, aborted };
+
+struct TournamentCard {
+  std::string id;  // 1-32 of [A-Za-z0-9._-]
+  std::string title;
+  std::string settings;  // opaque to the server: the driver's own text (its TOML file)
+  TournamentStatus status = TournamentStatus::open;
+};
+
+class MatchHost {
+ public:
+  MatchHost() = default;
+  MatchHost(const MatchHost&) = delete;
+  MatchHost& operator=(const MatchHost&) = delete;
+  virtual ~MatchHost() = default;
+
+  // Stores the tournament unless it exists. The stored card is the answer: after a restart its
+  // settings are those with which it began.
+  virtual TournamentCard open_tournament(const TournamentCard& card) = 0;
+  virtual void set_status(const std::string& tournament, TournamentStatus status) = 0;
+  [[nodiscard]] virtual std::vector<TournamentCard> tournaments() const = 0;
+
+  // Enters an agent; makes a house bot's agent known if need be.
+  virtual void enter(const TournamentEntry& entry) = 0;
+  // In the order of entering, those that joined over the wire included.
+  [[nodiscard]] virtual std::vector<TournamentEntry> entries(
+      const std::string& tournament) const = 0;
+
+  virtual void start_match(const MatchOrder& order) = 0;
+  [[nodiscard]] virtual std::vector<MatchOutcome> finished_matches(
+      const std::string& tournament) const = 0;
+
+  // Each replaces the callback before it. A match is told after its last game is stored.
+  virtual void on_match_over(std::function<void(const MatchOutcome&)> callback) = 0;
+  // After each game, void ones not included; for progress displays.
+  virtual void on_game_over(
+      std::function<void(const MatchOrder&, const GameOutcome&)> callback) = 0;
+};
+
+}  // namespace poolhall::net
