@@ -1,9 +1,10 @@
 // What a tournament asks of the server that plays its matches. The other side of the door is a
 // driver that knows the schedule (a pure function of results) and nothing of sockets or SQL.
 //
-//   host.enter({.tournament = id, .name = "Anna", .house_bot = "greedy"});
+//   TournamentCard card = host.open_tournament({.name = "demo", .settings = toml_text});
+//   host.enter({.tournament = card.id, .name = "Anna", .house_bot = "greedy"});
 //   host.on_match_over([&](const MatchOutcome& outcome) { next_pairings(outcome); });
-//   host.start_match({.tournament = id, .pairing = 7, .agents = {"Anna", "Bob"}, .games = 4});
+//   host.start_match({.tournament = card.id, .pairing = 7, .agents = {"Anna", "Bob"}, .games = 4});
 //
 // Everything here is called on the network thread (Server::post), and the callbacks come there.
 // Orders are idempotent: the key of a match is (tournament, pairing). After a restart a driver
@@ -19,9 +20,14 @@
 #include <string>
 #include <vector>
 
+#include "protocol/ids.hpp"
 #include "rules/game_state.hpp"
 
 namespace poolhall::net {
+
+using protocol::GameId;
+using protocol::MatchId;
+using protocol::TournamentId;
 
 // The terms under which the games of a match are played.
 struct GameTerms {
@@ -40,7 +46,7 @@ struct GameTerms {
 
 // One pairing: games between two agents. agents[0] breaks in the first game, then in turns.
 struct MatchOrder {
-  std::string tournament;     // id from open_tournament
+  TournamentId tournament{};
   std::uint32_t pairing = 0;  // unique in the tournament
   std::array<std::string, 2> agents;
   std::uint32_t games = 1;
@@ -49,7 +55,7 @@ struct MatchOrder {
 };
 
 struct GameOutcome {
-  std::uint64_t game = 0;                 // id, as in the database and on the wire
+  GameId game{};
   std::uint32_t number = 0;               // 0-based in its match; a replayed void game keeps it
   std::uint32_t breaker = 0;              // index into MatchOrder::agents
   std::optional<std::uint32_t> winner{};  // index into MatchOrder::agents; unset: drawn
@@ -58,14 +64,14 @@ struct GameOutcome {
 };
 
 struct MatchOutcome {
-  std::string tournament;
+  TournamentId tournament{};
   std::uint32_t pairing = 0;
-  std::uint64_t match = 0;         // id
+  MatchId match{};
   std::vector<GameOutcome> games;  // scored games only, by number
 };
 
 struct TournamentEntry {
-  std::string tournament;
+  TournamentId tournament{};
   std::string name;                        // of the agent
   std::optional<std::string> house_bot{};  // played by a process that the server starts
 };
@@ -86,21 +92,20 @@ class MatchHost {
   MatchHost& operator=(const MatchHost&) = delete;
   virtual ~MatchHost() = default;
 
-  // Stores the tournament unless it exists. The stored card is the answer: after a restart its
-  // settings are those with which it began.
+  // Stores the tournament unless one of that name exists. The stored card is the answer: after a
+  // restart its settings are those with which it began.
   virtual TournamentCard open_tournament(const TournamentCard& card) = 0;
-  virtual void set_status(const std::string& tournament, TournamentStatus status) = 0;
+  virtual void set_status(TournamentId tournament, TournamentStatus status) = 0;
   [[nodiscard]] virtual std::vector<TournamentCard> tournaments() const = 0;
 
   // Enters an agent; makes a house bot's agent known if need be.
   virtual void enter(const TournamentEntry& entry) = 0;
   // In the order of entering, those that joined over the wire included.
-  [[nodiscard]] virtual std::vector<TournamentEntry> entries(
-      const std::string& tournament) const = 0;
+  [[nodiscard]] virtual std::vector<TournamentEntry> entries(TournamentId tournament) const = 0;
 
   virtual void start_match(const MatchOrder& order) = 0;
   [[nodiscard]] virtual std::vector<MatchOutcome> finished_matches(
-      const std::string& tournament) const = 0;
+      TournamentId tournament) const = 0;
 
   // Each replaces the callback before it. A match is told after its last game is stored.
   virtual void on_match_over(std::function<void(const MatchOutcome&)> callback) = 0;

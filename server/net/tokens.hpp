@@ -1,0 +1,29 @@
+// Agents' tokens: 256 random bits as 64 hex digits. Only SHA-256 of a token is ever stored, and
+// hashes are compared in constant time.
+//
+//   std::string token = new_token();
+//   TokenHash hash = hash_of(token);
+//   if (same(hash, stored)) let_in();
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace poolhall::net {
+
+using TokenHash = std::array<std::uint8_t, 32>;
+
+[[nodiscard]] std::string new_token();
+// 64 hex digits, either case.
+[[nodiscard]] bool is_token(std::string_view text);
+// Of the token's 32 bytes, so that the digits' case does not matter; `token` must be one.
+[[nodiscard]] TokenHash hash_of(std::string_view token);
+[[nodiscard]] bool same(const TokenHash& a, const TokenHash& b);
+
+// Random bits from the system, for ids and seeds. Below 2^53, so that every JSON reader keeps it.
+[[nodiscard]] std::uint64_t random_seed();
+
+}  // namespace poolhall::net
