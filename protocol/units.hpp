@@ -1,0 +1,61 @@
+// Shots in the wire's units (mm, degrees, m/s) and the one place where they become SI.
+//
+// An executed shot is authoritative in the wire's units: noise is added there, so that whoever
+// simulates the executed parameters of a stored shot gets the same bits.
+//
+//   ExecutedShot executed = executed_shot(intended, noise, deviates, scene);
+//   physics::CueShot<double> strike = to_physics(executed.params);
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "physics/cue_strike.hpp"
+#include "physics/noise.hpp"
+
+namespace poolhall::protocol {
+
+struct ShotParams {
+  double a = 0;      // mm, offset of the contact point to the left as the player sees it
+  double b = 0;      // mm, upwards
+  double theta = 0;  // degrees, elevation of the cue
+  double phi = 0;    // degrees, heading, counter-clockwise from +x
+  double v = 0;      // m/s, of the cue
+
+  friend bool operator==(const ShotParams&, const ShotParams&) = default;
+};
+
+// Standard deviations, in the same units.
+struct NoiseParams {
+  double a = 0;
+  double b = 0;
+  double theta = 0;
+  double phi = 0;
+  double v = 0;
+
+  friend bool operator==(const NoiseParams&, const NoiseParams&) = default;
+};
+
+[[nodiscard]] physics::CueShot<double> to_physics(const ShotParams& params);
+// Rounds: to_physics of the result may differ from `shot` in the last bit.
+[[nodiscard]] ShotParams to_wire(const physics::CueShot<double>& shot);
+
+// none, low, olympiad, high.
+[[nodiscard]] std::optional<NoiseParams> noise_preset(std::string_view name);
+[[nodiscard]] NoiseParams scaled(const NoiseParams& noise, double factor);
+
+[[nodiscard]] ShotParams with_noise(const ShotParams& intended, const NoiseParams& noise,
+                                    const physics::ShotDeviates& deviates);
+
+// What is played of what was intended. `balls` has the cue ball where it will be struck.
+struct ExecutedShot {
+  ShotParams params;
+  bool moved = false;  // noise had made it impossible: moved to the nearest possible shot
+};
+[[nodiscard]] ExecutedShot executed_shot(const ShotParams& intended, const NoiseParams& noise,
+                                         const physics::ShotDeviates& deviates,
+                                         const physics::BallSet<double>& balls,
+                                         const physics::Table& table,
+                                         const physics::Materials& materials);
+
+}  // namespace poolhall::protocol
