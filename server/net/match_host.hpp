@@ -52,6 +52,7 @@ struct MatchOrder {
   std::uint32_t games = 1;
   GameTerms terms{};
   std::uint64_t seed = 0;  // of the racks; game i of the match uses seed and i
+  bool mirrored = false;   // games 2k and 2k + 1 share their rack: both use seed and k
 };
 
 struct GameOutcome {
@@ -74,6 +75,10 @@ struct TournamentEntry {
   TournamentId tournament{};
   std::string name;                        // of the agent
   std::optional<std::string> house_bot{};  // played by a process that the server starts
+  std::vector<std::string> house_options{};  // "--samples", "8": as the program takes them
+  // Played by a process of somebody's that the server starts in the same way as a house bot, by
+  // /bin/sh -c with POOLHALL_SERVER (HOST:PORT) and POOLHALL_TOKEN in its environment.
+  std::optional<std::string> command{};
 };
 
 enum class TournamentStatus : std::uint8_t { open, running, finished, aborted };
