@@ -1,0 +1,96 @@
+// The database as the server sees it. SQLite is the one implementation (sqlite_database.hpp);
+// another one has to pass tests/integration/storage/database_conformance_test.cpp.
+//
+//   std::unique_ptr<Database> database = std::move(open_sqlite(path)).value();
+//   database->begin();
+//   database->append_turn(turn);
+//   database->commit();   // durable from here
+//
+// An object serves one thread at a time. The thread that writes is the Writer's (writer.hpp);
+// others read through readers of their own.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/storage/errors.hpp"
+#include "server/storage/records.hpp"
+
+namespace poolhall::storage {
+
+// A game that was going on when the server stopped: all that is needed to go on.
+struct UnfinishedGame {
+  GameRecord game;
+  std::optional<TurnRecord> last_turn{};  // unset: none was played
+  std::array<std::uint32_t, 2> shots{};   // by seat
+};
+
+class Reader {
+ public:
+  Reader() = default;
+  Reader(const Reader&) = delete;
+  Reader& operator=(const Reader&) = delete;
+  virtual ~Reader() = default;
+
+  [[nodiscard]] virtual Expected<Counters> counters() = 0;
+
+  [[nodiscard]] virtual Expected<std::vector<AgentRecord>> agents() = 0;
+  [[nodiscard]] virtual Expected<std::optional<AgentRecord>> agent(AgentId id) = 0;
+  [[nodiscard]] virtual Expected<std::optional<AgentRecord>> agent_named(std::string_view name) = 0;
+  [[nodiscard]] virtual Expected<std::optional<AgentRecord>> agent_with_token(
+      const Digest& token_hash) = 0;
+
+  [[nodiscard]] virtual Expected<std::vector<TournamentRecord>> tournaments() = 0;
+  [[nodiscard]] virtual Expected<std::vector<EntryRecord>> entries(std::string_view tournament) = 0;
+
+  [[nodiscard]] virtual Expected<std::optional<MatchRecord>> match(MatchId id) = 0;
+  [[nodiscard]] virtual Expected<std::vector<MatchRecord>> matches_of(
+      std::string_view tournament) = 0;
+  [[nodiscard]] virtual Expected<std::vector<MatchRecord>> unfinished_matches() = 0;
+
+  [[nodiscard]] virtual Expected<std::optional<GameRecord>> game(GameId id) = 0;
+  [[nodiscard]] virtual Expected<std::vector<GameRecord>> games_of(MatchId match) = 0;
+  // Over, and not acknowledged by this agent.
+  [[nodiscard]] virtual Expected<std::vector<GameRecord>> unacknowledged_by(AgentId agent) = 0;
+  [[nodiscard]] virtual Expected<std::vector<UnfinishedGame>> unfinished_games() = 0;
+  // Every game's id, ascending.
+  [[nodiscard]] virtual Expected<std::vector<GameId>> game_ids() = 0;
+
+  [[nodiscard]] virtual Expected<std::optional<TurnRecord>> turn(GameId game,
+                                                                 std::uint32_t number) = 0;
+  // In order; `visit` returns false to stop.
+  [[nodiscard]] virtual Expected<void> each_turn(
+      GameId game, const std::function<bool(const TurnRecord&)>& visit) = 0;
+
+  // The database's own check of its structure: one line a finding, none when it is sound.
+  [[nodiscard]] virtual Expected<std::vector<std::string>> check_structure() = 0;
+};
+
+class Database : public Reader {
+ public:
+  // One transaction at a time. What is written in it is durable once commit has returned.
+  [[nodiscard]] virtual Expected<void> begin() = 0;
+  [[nodiscard]] virtual Expected<void> commit() = 0;
+  virtual void rollback() = 0;
+
+  // Adding what is there already is a conflict, and so is updating what is not.
+  [[nodiscard]] virtual Expected<void> add_agent(const AgentRecord& agent) = 0;
+  [[nodiscard]] virtual Expected<void> add_tournament(const TournamentRecord& tournament) = 0;
+  [[nodiscard]] virtual Expected<void> set_tournament_status(std::string_view tournament,
+                                                             TournamentStatus status) = 0;
+  [[nodiscard]] virtual Expected<void> add_entry(const EntryRecord& entry) = 0;
+  [[nodiscard]] virtual Expected<void> withdraw_entry(std::string_view tournament,
+                                                      AgentId agent) = 0;
+  [[nodiscard]] virtual Expected<void> add_match(const MatchRecord& match) = 0;
+  [[nodiscard]] virtual Expected<void> finish_match(MatchId match, UnixMicros when) = 0;
+  [[nodiscard]] virtual Expected<void> add_game(const GameRecord& game) = 0;
+  // Stores again what grows with a game; the rest of `game` must be as it was added.
+  [[nodiscard]] virtual Expected<void> update_game(const GameRecord& game) = 0;
+  [[nodiscard]] virtual Expected<void> append_turn(const TurnRecord& turn) = 0;
+};
+
+}  // namespace poolhall::storage
