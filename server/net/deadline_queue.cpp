@@ -14,7 +14,9 @@ Deadline& Deadline::operator=(Deadline&& other) noexcept {
   return *this;
 }
 
-Deadline::~Deadline() { cancel(); }
+Deadline::~Deadline() {
+  cancel();
+}
 
 void Deadline::cancel() {
   if (queue_ != nullptr) {

@@ -1,7 +1,7 @@
 // What a tournament asks of the server that plays its matches. The other side of the door is a
 // driver that knows the schedule (a pure function of results) and nothing of sockets or SQL.
 //
-//   TournamentCard card = host.open_tournament({.name = "demo", .settings = toml_text});
+//   TournamentCard card = host.open_tournament({.id = "demo", .settings = toml_text});
 //   host.enter({.tournament = card.id, .name = "Anna", .house_bot = "greedy"});
 //   host.on_match_over([&](const MatchOutcome& outcome) { next_pairings(outcome); });
 //   host.start_match({.tournament = card.id, .pairing = 7, .agents = {"Anna", "Bob"}, .games = 4});
@@ -22,12 +22,13 @@
 
 #include "protocol/ids.hpp"
 #include "rules/game_state.hpp"
+#include "server/storage/records.hpp"
 
 namespace poolhall::net {
 
 using protocol::GameId;
 using protocol::MatchId;
-using protocol::TournamentId;
+using storage::TournamentStatus;
 
 // The terms under which the games of a match are played.
 struct GameTerms {
@@ -46,7 +47,7 @@ struct GameTerms {
 
 // One pairing: games between two agents. agents[0] breaks in the first game, then in turns.
 struct MatchOrder {
-  TournamentId tournament{};
+  std::string tournament;
   std::uint32_t pairing = 0;  // unique in the tournament
   std::array<std::string, 2> agents;
   std::uint32_t games = 1;
@@ -65,27 +66,25 @@ struct GameOutcome {
 };
 
 struct MatchOutcome {
-  TournamentId tournament{};
+  std::string tournament;
   std::uint32_t pairing = 0;
   MatchId match{};
   std::vector<GameOutcome> games;  // scored games only, by number
 };
 
 struct TournamentEntry {
-  TournamentId tournament{};
-  std::string name;                        // of the agent
-  std::optional<std::string> house_bot{};  // played by a process that the server starts
+  std::string tournament;
+  std::string name;                          // of the agent
+  std::optional<std::string> house_bot{};    // played by a process that the server starts
   std::vector<std::string> house_options{};  // "--samples", "8": as the program takes them
   // Played by a process of somebody's that the server starts in the same way as a house bot, by
   // /bin/sh -c with POOLHALL_SERVER (HOST:PORT) and POOLHALL_TOKEN in its environment.
   std::optional<std::string> command{};
 };
 
-enum class TournamentStatus : std::uint8_t { open, running, finished, aborted };
-
 struct TournamentCard {
-  std::string id;  // 1-32 of [A-Za-z0-9._-]
-  std::string title;
+  TournamentId id{};     // given by open_tournament
+  std::string name;      // unique, 1-32 of [A-Za-z0-9._-]
   std::string settings;  // opaque to the server: the driver's own text (its TOML file)
   TournamentStatus status = TournamentStatus::open;
 };
@@ -97,20 +96,21 @@ class MatchHost {
   MatchHost& operator=(const MatchHost&) = delete;
   virtual ~MatchHost() = default;
 
-  // Stores the tournament unless one of that name exists. The stored card is the answer: after a
+  // Stores the tournament unless one of that id exists. The stored card is the answer: after a
   // restart its settings are those with which it began.
   virtual TournamentCard open_tournament(const TournamentCard& card) = 0;
-  virtual void set_status(TournamentId tournament, TournamentStatus status) = 0;
+  virtual void set_status(const std::string& tournament, TournamentStatus status) = 0;
   [[nodiscard]] virtual std::vector<TournamentCard> tournaments() const = 0;
 
   // Enters an agent; makes a house bot's agent known if need be.
   virtual void enter(const TournamentEntry& entry) = 0;
   // In the order of entering, those that joined over the wire included.
-  [[nodiscard]] virtual std::vector<TournamentEntry> entries(TournamentId tournament) const = 0;
+  [[nodiscard]] virtual std::vector<TournamentEntry> entries(
+      const std::string& tournament) const = 0;
 
   virtual void start_match(const MatchOrder& order) = 0;
   [[nodiscard]] virtual std::vector<MatchOutcome> finished_matches(
-      TournamentId tournament) const = 0;
+      const std::string& tournament) const = 0;
 
   // Each replaces the callback before it. A match is told after its last game is stored.
   virtual void on_match_over(std::function<void(const MatchOutcome&)> callback) = 0;

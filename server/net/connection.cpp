@@ -1,0 +1,287 @@
+#include "server/net/connection.hpp"
+
+#include <netinet/tcp.h>
+
+#include <array>
+#include <boost/asio/as_tuple.hpp>
+#include <boost/asio/buffer.hpp>
+#include <boost/asio/co_spawn.hpp>
+#include <boost/asio/detached.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/use_awaitable.hpp>
+
+#include "server/net/socket_options.hpp"
+
+namespace poolhall::net {
+
+namespace asio = boost::asio;
+using asio::ip::tcp;
+
+namespace {
+
+constexpr auto awaited = asio::as_tuple(asio::use_awaitable);
+constexpr std::size_t lines_in_one_write = 64;
+// How long an ended connection may take to read its last line.
+constexpr std::chrono::seconds linger{2};
+
+}  // namespace
+
+Connection::Connection(tcp::socket socket, ConnectionId id, ConnectionContext& context)
+    : socket_(std::move(socket)),
+      id_(id),
+      peer_(peer_name(socket_)),
+      context_(context),
+      splitter_(context.limits.line_bytes_before_login) {}
+
+Connection::~Connection() {
+  close_socket();
+}
+
+void Connection::start(std::weak_ptr<Handler> handler) {
+  handler_ = std::move(handler);
+  boost::system::error_code error;
+  socket_.non_blocking(true, error);
+  set_agent_options(socket_, context_.limits.tcp_user_timeout);
+  asio::co_spawn(socket_.get_executor(), read_loop(shared_from_this()), asio::detached);
+}
+
+void Connection::send(Line line) {
+  if (state_ != State::open) {
+    return;
+  }
+  if (queued_bytes_ + line->size() > context_.limits.output_queue_bytes) {
+    drop_unsent();
+    if (const auto handler = handler_.lock()) {
+      handler->on_output_unread();
+    }
+    if (state_ == State::open) {
+      abort("its output is not read");
+    }
+    return;
+  }
+  queued_bytes_ += line->size();
+  out_.push_back(std::move(line));
+  schedule_flush();
+}
+
+void Connection::close(Line last, std::string why) {
+  if (state_ != State::open) {
+    return;
+  }
+  state_ = State::closing;
+  line_deadline_.cancel();
+  queued_bytes_ += last->size();
+  out_.push_back(std::move(last));
+  tell_closed(std::move(why));
+  linger_deadline_ =
+      context_.deadlines.at(std::chrono::steady_clock::now() + linger, [weak = weak_from_this()] {
+        if (const auto self = weak.lock()) {
+          self->close_socket();
+        }
+      });
+  schedule_flush();
+}
+
+void Connection::abort(std::string why) {
+  if (state_ == State::open) {
+    tell_closed(std::move(why));
+  }
+  close_socket();
+}
+
+void Connection::read_arrived() {
+  boost::system::error_code error;
+  std::size_t arrived = socket_.available(error);
+  std::vector<char> buffer(std::min<std::size_t>(arrived, 64 * 1024));
+  while (!error && arrived > 0 && state_ == State::open) {
+    const std::size_t got =
+        socket_.read_some(asio::buffer(buffer.data(), std::min(arrived, buffer.size())), error);
+    if (!error) {
+      take({buffer.data(), got}, std::chrono::steady_clock::now());
+      arrived -= got;
+    }
+  }
+}
+
+asio::awaitable<void> Connection::read_loop(std::shared_ptr<Connection> self) {
+  while (socket_.is_open()) {
+    const auto [error] = co_await socket_.async_wait(tcp::socket::wait_read, awaited);
+    if (error || !read_once()) {
+      break;
+    }
+  }
+  abort("the connection has ended");
+  static_cast<void>(self);
+}
+
+// False at the end of the stream. One read a turn, so that nobody's flood keeps others waiting.
+bool Connection::read_once() {
+  boost::system::error_code error;
+  const std::size_t got = socket_.read_some(asio::buffer(context_.scratch), error);
+  if (error == asio::error::would_block || error == asio::error::try_again) {
+    return true;
+  }
+  if (error) {
+    return false;
+  }
+  if (state_ == State::open) {
+    take({context_.scratch.data(), got}, std::chrono::steady_clock::now());
+  }
+  return true;  // what a closing connection still sends is read and forgotten
+}
+
+void Connection::take(std::string_view bytes, SteadyTime read_at) {
+  using Kind = protocol::LineSplitter::Kind;
+  while (!bytes.empty() && state_ == State::open) {
+    const auto handler = handler_.lock();
+    if (!handler) {
+      return;
+    }
+    const protocol::LineSplitter::Step step = splitter_.next(bytes);
+    bytes = step.rest;
+    if (step.kind == Kind::line) {
+      line_deadline_.cancel();
+      handler->on_line(step.line, read_at);
+    } else if (step.kind == Kind::too_long) {
+      handler->on_line_too_long();
+    }
+  }
+  watch_line();
+}
+
+void Connection::watch_line() {
+  if (!splitter_.inside_line() || state_ != State::open) {
+    line_deadline_.cancel();
+    return;
+  }
+  if (line_deadline_.is_set()) {
+    return;
+  }
+  line_deadline_ = context_.deadlines.at(
+      std::chrono::steady_clock::now() + context_.limits.line_deadline, [weak = weak_from_this()] {
+        const auto self = weak.lock();
+        const auto handler = self ? self->handler_.lock() : nullptr;
+        if (handler) {
+          handler->on_line_too_slow();
+        }
+      });
+}
+
+void Connection::schedule_flush() {
+  if (flush_pending_ || writing_) {
+    return;
+  }
+  flush_pending_ = true;
+  asio::post(socket_.get_executor(), [self = shared_from_this()] { self->flush(); });
+}
+
+void Connection::flush() {
+  flush_pending_ = false;
+  if (writing_ || !socket_.is_open()) {
+    return;
+  }
+  if (write_some()) {
+    finish_sending();
+  } else if (socket_.is_open()) {
+    writing_ = true;
+    asio::co_spawn(socket_.get_executor(), write_loop(shared_from_this()), asio::detached);
+  }
+}
+
+asio::awaitable<void> Connection::write_loop(std::shared_ptr<Connection> self) {
+  while (socket_.is_open()) {
+    const auto [error] = co_await socket_.async_wait(tcp::socket::wait_write, awaited);
+    if (error || write_some()) {
+      break;
+    }
+  }
+  writing_ = false;
+  if (out_.empty()) {
+    finish_sending();
+  }
+  static_cast<void>(self);
+}
+
+bool Connection::write_some() {
+  while (!out_.empty()) {
+    std::array<asio::const_buffer, lines_in_one_write> buffers;
+    std::size_t count = 0;
+    for (; count < std::min(buffers.size(), out_.size()); ++count) {
+      const std::size_t skip = count == 0 ? out_offset_ : 0;
+      buffers[count] = asio::buffer(*out_[count]) + skip;
+    }
+    boost::system::error_code error;
+    const std::size_t bytes =
+        socket_.write_some(std::span<const asio::const_buffer>(buffers.data(), count), error);
+    if (error == asio::error::would_block || error == asio::error::try_again) {
+      return false;
+    }
+    if (error) {
+      abort("the connection is broken: " + error.message());
+      return false;
+    }
+    written(bytes);
+  }
+  return true;
+}
+
+void Connection::written(std::size_t bytes) {
+  queued_bytes_ -= bytes;
+  while (bytes > 0) {
+    const std::size_t left = out_.front()->size() - out_offset_;
+    if (bytes < left) {
+      out_offset_ += bytes;
+      return;
+    }
+    bytes -= left;
+    out_offset_ = 0;
+    out_.pop_front();
+  }
+}
+
+// All but the line that has begun: the peer would not find the beginning of the next.
+void Connection::drop_unsent() {
+  const std::size_t keep = out_offset_ > 0 ? 1 : 0;
+  out_.resize(keep);
+  queued_bytes_ = keep == 0 ? 0 : out_.front()->size() - out_offset_;
+}
+
+// Ends the sending half; the rest of what the peer sends is read until it ends too, for a socket
+// closed with bytes unread resets the connection and takes the last line with it.
+void Connection::finish_sending() {
+  if (state_ != State::closing || !socket_.is_open()) {
+    return;
+  }
+  boost::system::error_code error;
+  socket_.shutdown(tcp::socket::shutdown_send, error);
+}
+
+void Connection::tell_closed(std::string why) {
+  if (state_ == State::open) {
+    state_ = State::closing;
+  }
+  asio::post(socket_.get_executor(), [self = shared_from_this(), why = std::move(why)] {
+    if (const auto handler = self->handler_.lock()) {
+      handler->on_closed(why);
+    }
+    self->handler_.reset();
+  });
+}
+
+void Connection::close_socket() {
+  if (state_ == State::closed) {
+    return;
+  }
+  state_ = State::closed;
+  line_deadline_.cancel();
+  linger_deadline_.cancel();
+  boost::system::error_code error;
+  socket_.close(error);
+  out_.clear();
+  queued_bytes_ = 0;
+  if (on_gone_) {
+    std::exchange(on_gone_, nullptr)();
+  }
+}
+
+}  // namespace poolhall::net

@@ -1,0 +1,114 @@
+// One agent's socket: lines in, a bounded queue of lines out, and an end with a stated reason.
+// It knows nothing of what the lines mean.
+//
+//   auto connection = std::make_shared<Connection>(std::move(socket), id, context);
+//   connection->start(session);          // lines go to session.on_line
+//   connection->send(line);              // never blocks
+//   connection->close(last_line, "superseded");
+//
+// The network thread's own. An idle connection holds no buffer: it waits until bytes are there and
+// reads them into one that all share.
+#pragma once
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <cstdint>
+#include <deque>
+#include <functional>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "protocol/framing.hpp"
+#include "protocol/limits.hpp"
+#include "server/net/deadline_queue.hpp"
+
+namespace poolhall::net {
+
+enum class ConnectionId : std::uint64_t {};
+[[nodiscard]] constexpr std::uint64_t number(ConnectionId id) {
+  return static_cast<std::uint64_t>(id);
+}
+
+// A line with its "\n", shared by all who get it.
+using Line = std::shared_ptr<const std::string>;
+
+// What all connections of a server have in common; outlives them.
+struct ConnectionContext {
+  const protocol::Limits& limits;
+  DeadlineQueue& deadlines;
+  std::vector<char> scratch = std::vector<char>(64 * 1024);
+};
+
+class Connection : public std::enable_shared_from_this<Connection> {
+ public:
+  // Who hears the lines. Not called after `closed`, nor before `start` has returned.
+  class Handler {
+   public:
+    virtual ~Handler() = default;
+    virtual void on_line(std::string_view line, SteadyTime read_at) = 0;
+    virtual void on_line_too_long() = 0;
+    virtual void on_line_too_slow() = 0;
+    virtual void on_output_unread() = 0;               // may close with a last line
+    virtual void on_closed(std::string_view why) = 0;  // once, never from within send or close
+  };
+
+  Connection(boost::asio::ip::tcp::socket socket, ConnectionId id, ConnectionContext& context);
+  ~Connection();
+  Connection(const Connection&) = delete;
+  Connection& operator=(const Connection&) = delete;
+
+  void start(std::weak_ptr<Handler> handler);
+  void send(Line line);
+  // Sends what is queued and `last`, then ends. Lines that come in later are not read.
+  void close(Line last, std::string why);
+  // Ends at once.
+  void abort(std::string why);
+  // Reads now what has arrived until now, before something else is decided by the clock.
+  void read_arrived();
+
+  void set_line_limit(std::size_t bytes) { splitter_.set_limit(bytes); }
+  [[nodiscard]] ConnectionId id() const { return id_; }
+  [[nodiscard]] const std::string& peer() const { return peer_; }
+  [[nodiscard]] bool open() const { return state_ == State::open; }
+  [[nodiscard]] std::size_t queued_bytes() const { return queued_bytes_; }
+  // Called when the socket is gone; for whoever counts sockets.
+  void on_gone(std::function<void()> action) { on_gone_ = std::move(action); }
+
+ private:
+  enum class State : std::uint8_t { open, closing, closed };
+
+  boost::asio::awaitable<void> read_loop(std::shared_ptr<Connection> self);
+  boost::asio::awaitable<void> write_loop(std::shared_ptr<Connection> self);
+  [[nodiscard]] bool read_once();
+  void take(std::string_view bytes, SteadyTime read_at);
+  void watch_line();
+  void schedule_flush();
+  void flush();
+  // What the socket takes now; false when it is full or broken.
+  [[nodiscard]] bool write_some();
+  void written(std::size_t bytes);
+  void drop_unsent();
+  void finish_sending();
+  void tell_closed(std::string why);
+  void close_socket();
+
+  boost::asio::ip::tcp::socket socket_;
+  ConnectionId id_;
+  std::string peer_;
+  ConnectionContext& context_;
+  std::weak_ptr<Handler> handler_;
+  protocol::LineSplitter splitter_;
+  Deadline line_deadline_;
+  Deadline linger_deadline_;
+  std::deque<Line> out_;
+  std::size_t out_offset_ = 0;  // bytes of out_.front() that the socket has taken
+  std::size_t queued_bytes_ = 0;
+  State state_ = State::open;
+  bool flush_pending_ = false;
+  bool writing_ = false;  // write_loop runs
+  std::function<void()> on_gone_;
+};
+
+}  // namespace poolhall::net
