@@ -83,8 +83,8 @@ struct TournamentEntry {
 };
 
 struct TournamentCard {
-  TournamentId id{};     // given by open_tournament
-  std::string name;      // unique, 1-32 of [A-Za-z0-9._-]
+  std::string id;  // 1-32 of [A-Za-z0-9._-]
+  std::string title;
   std::string settings;  // opaque to the server: the driver's own text (its TOML file)
   TournamentStatus status = TournamentStatus::open;
 };
