@@ -1,0 +1,81 @@
+// What a tournament file says (config/tournaments/*.toml): format, terms of the games, entries.
+// Plain values in the units of the program; every key is in config/README.md.
+//
+//   Expected<TournamentFile> file = load_tournament("config/tournaments/demo.toml");
+//   if (!file) die(text(file.error()));
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "rules/game_state.hpp"
+#include "server/settings/key_doc.hpp"
+#include "server/settings/settings_error.hpp"
+
+namespace poolhall::settings {
+
+// A house bot in a process of its own.
+struct HouseEntry {
+  std::string bot;                   // "greedy"
+  std::vector<std::string> options;  // of its command line: "--samples", "4"
+};
+// Somebody's program, started by /bin/sh -c with POOLHALL_SERVER and POOLHALL_TOKEN set.
+struct CommandEntry {
+  std::string command;
+};
+// An agent that registers with the server by itself, under the entry's name.
+struct AgentEntry {};
+
+struct EntrySettings {
+  std::string name;
+  std::variant<HouseEntry, CommandEntry, AgentEntry> player;
+};
+
+enum class MirroredGames : std::uint8_t {
+  none,  // every game has a rack of its own
+  rack,  // two games in a row have the same rack, each player breaks once
+};
+
+struct GameClock {
+  std::chrono::microseconds game{std::chrono::seconds{600}};  // each player, a game
+  std::chrono::microseconds increment{0};                     // after each turn
+  std::optional<std::chrono::microseconds> shot_cap{};        // longest turn
+};
+
+struct TournamentSettings {
+  std::string name;  // of [A-Za-z0-9._-]; also its name in the database
+  std::string format = "round_robin";
+  rules::RuleSet rules = rules::RuleSet::eight_ball;
+  std::uint32_t games_per_match = 2;
+  MirroredGames mirrored = MirroredGames::rack;
+  std::string noise = "olympiad";    // preset
+  std::string table = "olympiad";    // preset
+  std::string physics = "olympiad";  // preset of materials
+  double rack_gap = 0;               // m
+  std::uint32_t max_concurrent_games = 2;
+  std::uint32_t max_concurrent_games_per_entry = 1;
+  std::optional<std::uint64_t> seed{};  // of the racks; unset: drawn
+  std::vector<std::string> tie_breaks{"direct_encounter", "sonneborn_berger", "wins"};
+  GameClock clock;
+  std::vector<EntrySettings> entries;
+};
+
+struct TournamentFile {
+  TournamentSettings settings;
+  std::string text;  // of the file, for the database
+};
+
+[[nodiscard]] Expected<TournamentFile> load_tournament(const std::string& file);
+// The same from text; `file` is for messages.
+[[nodiscard]] Expected<TournamentSettings> parse_tournament(std::string_view text,
+                                                            const std::string& file);
+
+// All keys, those of an [[entry]] as "entry.name" and so on.
+[[nodiscard]] std::vector<KeyDoc> tournament_keys();
+
+}  // namespace poolhall::settings
