@@ -18,6 +18,7 @@ enum class EventType : std::uint8_t {
   rail_collision,
   pocketed,
   transition,
+  off_table,  // the ball left the table; the two-dimensional simulator has none, the referee knows it
 };
 
 [[nodiscard]] std::string_view name(EventType type);

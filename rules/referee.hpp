@@ -56,32 +56,48 @@ enum class FoulCode : std::uint8_t {
   ball_off_table,
   shot_time_exceeded,
   too_many_refusals,
-  illegal_break,           // fewer than four balls to a rail and none pocketed
-  kitchen,                 // from the kitchen, first ball hit inside it
+  illegal_break,  // fewer than four balls to a rail and none pocketed
+  kitchen,        // from the kitchen, first ball hit inside it
 };
 [[nodiscard]] std::string_view name(FoulCode code);
+[[nodiscard]] std::optional<FoulCode> foul_code(std::string_view name);
 
 struct FoulRecord {
   FoulCode code;
   std::string rule;                    // clause of rules/README.md, such as "8.6"
   std::string text;                    // in words, for a person
   std::optional<std::size_t> event{};  // index into the event log
+
+  friend bool operator==(const FoulRecord&, const FoulRecord&) = default;
 };
 
 struct PocketedBall {
   BallId ball{};
   PocketId pocket{};
   std::size_t event = 0;
+
+  friend bool operator==(const PocketedBall&, const PocketedBall&) = default;
+};
+
+// A clause that decided something other than a foul, such as who goes on or how the game ended.
+struct Finding {
+  std::string rule;                    // clause of rules/README.md
+  std::string text;                    // in words, for a person
+  std::optional<std::size_t> event{};  // index into the event log
+
+  friend bool operator==(const Finding&, const Finding&) = default;
 };
 
 struct Ruling {
   bool legal = true;
-  std::vector<FoulRecord> fouls;        // all of them, in the order of the clauses
-  std::vector<PocketedBall> pocketed;   // in the order of the log
-  std::vector<BallId> driven_off;       // off the table
+  std::vector<FoulRecord> fouls;       // all of them, in the order of the clauses
+  std::vector<PocketedBall> pocketed;  // in the order of the log
+  std::vector<BallId> driven_off;      // off the table
   std::optional<BallId> first_contact{};
-  std::vector<std::string> notes;       // clauses that decided, in words
-  GameState next;                       // the complete next state, or the end
+  std::vector<Finding> notes;  // the other clauses that decided, in their order
+  GameState next;              // the complete next state, or the end
+
+  friend bool operator==(const Ruling&, const Ruling&) = default;
 };
 
 // Whether `state` is possible on this table: no two balls in one place, none outside the rails, one
@@ -89,12 +105,26 @@ struct Ruling {
 [[nodiscard]] Expected<void> check_state(const GameState& state, const physics::Table& table,
                                          const physics::Materials& materials);
 
-// The state of a game before its first turn.
+// Whether a game can be played with these settings on this table: numbers in range, a rack that
+// fits. `new_game` wants them so.
+[[nodiscard]] Expected<void> check_settings(const GameSettings& settings,
+                                            const physics::Table& table,
+                                            const physics::Materials& materials);
+
+// The state of a game before its first turn: the balls racked, the cue ball in hand and meanwhile
+// in the middle of the kitchen.
 [[nodiscard]] GameState new_game(const GameSettings& settings, const physics::Table& table,
                                  const physics::Materials& materials);
 
 // Ids of the balls that may be called in this state.
 [[nodiscard]] std::vector<BallId> callable_balls(const GameState& state);
+
+// Ids of the balls that the cue ball may strike first in this state.
+[[nodiscard]] std::vector<BallId> legal_first_balls(const GameState& state);
+
+// What may be called in this state: pocket and safety in 8-ball, none in nine-ball (and push_out
+// on the shot after the break), none on a break and for a decision.
+[[nodiscard]] std::vector<Call::Kind> legal_calls(const GameState& state);
 
 // The state with the cue ball placed, ready for the simulator, or why the shot cannot be played
 // so. Whether the stroke itself is possible is physics::check_shot's answer.
