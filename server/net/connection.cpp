@@ -10,6 +10,8 @@
 #include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
+#include <span>
+
 #include "server/net/socket_options.hpp"
 
 namespace poolhall::net {

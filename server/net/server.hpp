@@ -1,6 +1,6 @@
 // The tournament server as one object: listeners, games, house bots, database.
 //
-//   Server server{options};
+//   Server server{{.settings = load_server_settings(file).value()}};
 //   if (auto started = server.start(); !started) die(started.error());   // one line
 //   server.post([&](MatchHost& host) { host.start_match(order); });
 //   server.run();   // until SIGTERM, SIGINT or stop(); 0 when it ended in order
@@ -16,10 +16,10 @@
 #include <tl/expected.hpp>
 
 #include "server/net/match_host.hpp"
+#include "server/settings/server_settings.hpp"
 
 namespace poolhall::net {
 
-enum class Registration : std::uint8_t { open, closed };
 enum class Signals : std::uint8_t { handled, left_alone };  // left alone: SIGTERM is the caller's
 
 struct Endpoint {
@@ -31,17 +31,11 @@ struct Endpoint {
 [[nodiscard]] std::string to_string(const Endpoint& endpoint);
 
 struct ServerOptions {
-  Endpoint listen{"127.0.0.1", 7777};
-  std::optional<Endpoint> http{};
-  std::filesystem::path database = "poolhall.db";
+  settings::ServerSettings settings;  // port 0 picks a free one; an empty `http` is no page
   std::optional<std::filesystem::path> ready_file{};
-  Registration registration = Registration::open;
+  std::optional<std::filesystem::path> admin_token_file{};
   Signals signals = Signals::handled;
-  std::string server_name = "poolhall";
   std::filesystem::path program = "/proc/self/exe";  // that plays house bots: `program bot NAME`
-  std::uint32_t max_house_bots = 16;
-  std::uint32_t worker_threads = 0;  // 0: one a core
-  std::uint32_t max_connections = 16'384;
 };
 
 class Server {
