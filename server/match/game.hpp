@@ -1,0 +1,186 @@
+// One game's logic above the referee: whose turn, which number, what was asked before, refusals,
+// clocks, the end. No sockets, no database, no clock reads: instants come as arguments, rows go out
+// in the answers.
+//
+//   Game game = Game::open(record, {}).value();
+//   game.begin_turn(now);
+//   Answer answer = game.shot(Seat::first, request, {.at = arrived, .lag = lag});
+//   if (auto* play_it = std::get_if<Play>(&answer)) {
+//     PlayOutcome outcome = play(play_it->job);         // on a worker thread
+//     Answer settled = game.settle(std::move(outcome), now);
+//     ... Store: write the rows; when they are durable: game.stored(), then tell everyone
+//   }
+//
+// From Play until settle() and from Store until stored() the game takes nothing else: what comes
+// meanwhile gets Later.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include <tl/expected.hpp>
+
+#include "protocol/errors.hpp"
+#include "protocol/messages.hpp"
+#include "server/match/clock.hpp"
+#include "server/match/fair_noise.hpp"
+#include "server/match/play_shot.hpp"
+#include "server/storage/database.hpp"
+
+namespace poolhall::match {
+
+// A game's row before its first turn, noise, commitment, rack and seal included; or which of the
+// terms does not exist.
+struct GameOrder {
+  protocol::GameId id{};
+  protocol::MatchId match{};
+  std::uint32_t number = 0;
+  std::uint32_t attempt = 0;
+  std::array<storage::AgentId, 2> agents{};  // by seat
+  storage::TermsRecord terms;
+  Seat breaker = Seat::first;
+  std::uint64_t rack_seed = 0;
+  GameKey key{};
+  storage::UnixMicros created{};
+};
+[[nodiscard]] tl::expected<storage::GameRecord, std::string> new_game_record(
+    const GameOrder& order);
+
+// When a request's complete line was read, and the lag of its connection.
+struct Arrival {
+  Instant at{};
+  Micros lag{0};
+  storage::UnixMicros date{};
+};
+
+// Answers to a request.
+
+// Run play() on the job, then settle() with its outcome. The clock stands.
+struct Play {
+  ShotJob job;
+};
+// Write the row (and the game's, when the turn ended it) in one transaction; when it is durable,
+// stored(). The requester then gets the error, or what the row says.
+struct Store {
+  storage::TurnRecord turn;
+  std::optional<storage::GameRecord> game{};
+  std::optional<protocol::Error> error{};
+};
+// The error at once. The game has not changed, but for the count of refusals; the clock runs.
+struct Refuse {
+  protocol::Error error;
+};
+// The turn is over: the row with this number decides (repeated_shot, repeated_decision).
+struct Past {
+  std::uint32_t turn = 0;
+};
+// The same request is being played or stored: answer this one with the other's result.
+struct Join {};
+// Something is being played or stored: ask again when that is done.
+struct Later {};
+// It is so already: answer as for the first time.
+struct Done {};
+
+using Answer = std::variant<Play, Store, Refuse, Past, Join, Later, Done>;
+
+// Compares a request with the row of its turn: nothing if it is the same request with the same
+// content, so that the row is its answer; else conflicting_shot or stale_turn.
+[[nodiscard]] std::optional<protocol::Error> repeated_shot(const storage::TurnRecord& row, Seat by,
+                                                           const protocol::Shot& shot);
+[[nodiscard]] std::optional<protocol::Error> repeated_decision(const storage::TurnRecord& row,
+                                                               Seat by,
+                                                               const protocol::Decide& decide);
+
+enum class Phase : std::uint8_t {
+  due,       // begin_turn is awaited, no clock runs
+  thinking,  // the player's clock runs
+  playing,   // between Play and settle()
+  storing,   // between Store and stored()
+  over,
+};
+
+class Game {
+ public:
+  // A new game's record and {}, or what the database gave of one that was going on.
+  [[nodiscard]] static tl::expected<Game, std::string> open(
+      const storage::UnfinishedGame& unfinished);
+
+  [[nodiscard]] const storage::GameRecord& record() const { return record_; }
+  [[nodiscard]] const Board& board() const { return *board_; }
+  [[nodiscard]] const rules::GameState& state() const { return state_; }
+  [[nodiscard]] const std::string& state_json() const { return state_json_; }
+  [[nodiscard]] const GameClock& clock() const { return clock_; }
+  [[nodiscard]] Phase phase() const { return phase_; }
+  [[nodiscard]] std::uint32_t refusals() const { return refusals_; }
+  // The last durable row.
+  [[nodiscard]] const std::optional<storage::TurnRecord>& last_turn() const { return last_turn_; }
+
+  // Starts the clock of a due turn; of any other nothing changes.
+  void begin_turn(Instant now);
+
+  [[nodiscard]] Answer shot(Seat by, const protocol::Shot& shot, const Arrival& arrival);
+  [[nodiscard]] Answer decide(Seat by, const protocol::Decide& decide, const Arrival& arrival);
+  [[nodiscard]] Answer concede(Seat by, const Arrival& arrival);
+
+  // The played job's outcome: Store, or Refuse. `now`: when a refusal is handed out.
+  [[nodiscard]] Answer settle(PlayOutcome outcome, Instant now);
+
+  // The answered Store is durable.
+  void stored();
+  // It could not be stored and never will be: as if it had not been asked; the clock goes on.
+  void not_stored(Instant now);
+
+  // When the flag falls, if that lag is forgiven; unset while no clock runs.
+  [[nodiscard]] std::optional<Instant> expires(Micros lag) const { return clock_.expires(lag); }
+  // Store when the flag has fallen by then; Later when nothing is to be done yet.
+  [[nodiscard]] Answer expire(const Arrival& now);
+
+  // The server ends it: forfeit of a seat, or void.
+  [[nodiscard]] Answer forfeit(Seat loser, const Arrival& now);
+  [[nodiscard]] Answer make_void(const Arrival& now);
+
+  // The game's row with the end acknowledged, to be stored; nothing if it was before.
+  [[nodiscard]] std::optional<storage::GameRecord> acknowledge(Seat by);
+
+ private:
+  Game() = default;
+
+  [[nodiscard]] std::optional<Answer> gate(Seat by, std::uint32_t turn) const;
+  [[nodiscard]] std::optional<Answer> stop_clock(const Arrival& arrival);
+  [[nodiscard]] storage::TurnRecord row(storage::TurnAction action, Seat seat,
+                                        storage::UnixMicros date) const;
+  [[nodiscard]] Answer refuse(const rules::Refusal& refusal, Instant now, storage::UnixMicros date);
+  [[nodiscard]] Answer lose_turn(rules::FoulCode code, storage::UnixMicros date,
+                                 std::optional<protocol::Error> error);
+  [[nodiscard]] Answer end(storage::TurnAction action, Seat seat, const rules::GameResult& result,
+                           const Arrival& arrival);
+  [[nodiscard]] Answer store(storage::TurnRecord turn, rules::GameState next,
+                             std::optional<protocol::Error> error);
+
+  struct InFlight {
+    storage::TurnRecord turn;  // of a job: without its outcome
+    rules::GameState next;
+    std::string next_json;
+    std::optional<protocol::Shot> shot;  // being played or stored
+    std::optional<protocol::Decide> decide;
+    GameClock clock_before{ClockSettings{}};
+  };
+
+  storage::GameRecord record_;
+  std::shared_ptr<const Board> board_;
+  rules::GameState state_;
+  std::string state_json_;
+  GameClock clock_{ClockSettings{}};
+  Phase phase_ = Phase::due;
+  std::uint32_t refusals_ = 0;
+  std::array<std::uint32_t, 2> shots_{};
+  storage::Digest head_{};
+  std::optional<storage::TurnRecord> last_turn_{};
+  std::optional<InFlight> in_flight_{};
+};
+
+}  // namespace poolhall::match

@@ -1,0 +1,47 @@
+// Checks a database against itself and against the simulator: every stored shot is run again and
+// compared bit for bit, the noise recomputed from the key, every turn judged again, checksums,
+// commitment and seal recomputed.
+//
+//   VerifyReport report = verify(*reader, {}).value();
+//   if (!report.differences.empty()) say(report.differences.front());
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/storage/database.hpp"
+
+namespace poolhall::match {
+
+struct Difference {
+  protocol::GameId game{};
+  std::optional<std::uint32_t> turn{};  // unset: the game's own row
+  std::string field;                    // column
+  std::string reason;                   // one line: what is stored, what it should be
+};
+
+struct VerifyReport {
+  std::uint64_t games = 0;
+  std::uint64_t unfinished = 0;  // of them
+  std::uint64_t turns = 0;
+  std::uint64_t shots = 0;              // run again and the same
+  std::uint64_t other_version = 0;      // shots of another physics version: not run again
+  std::vector<Difference> differences;  // the first of each game that has one
+};
+
+// The first difference of one game; counts into `report`.
+[[nodiscard]] storage::Expected<void> verify_game(storage::Reader& reader,
+                                                  const storage::GameRecord& game,
+                                                  VerifyReport& report);
+
+struct VerifyOptions {
+  std::optional<protocol::GameId> only{};
+  std::function<void(const VerifyReport&)> progress{};  // after each game
+};
+[[nodiscard]] storage::Expected<VerifyReport> verify(storage::Reader& reader,
+                                                     const VerifyOptions& options);
+
+}  // namespace poolhall::match
