@@ -52,6 +52,15 @@ void assign(Member& member, const Value& value) {
   }
 }
 
+template <class Kind>
+[[nodiscard]] std::string expected_now(const Kind& kind) {
+  if constexpr (requires { kind.expected_now(); }) {
+    return kind.expected_now();
+  } else {
+    return kind.expected();
+  }
+}
+
 template <class Kind, class Member>
 [[nodiscard]] std::optional<std::string> written(const Kind& kind, const Member& member) {
   if constexpr (IsOptional<Member>::value) {
@@ -71,7 +80,7 @@ class Keys {
   template <class Kind, class Access>
   void add(std::string name, Kind kind, Access access) {
     entries_.push_back(
-        {std::move(name), kind.expected(),
+        {std::move(name), kind.expected(), detail::expected_now(kind),
          [kind, access](const Node& node, Target& target) {
            auto value = kind.read(node);
            if (value) {
@@ -102,7 +111,8 @@ class Keys {
  private:
   struct Entry {
     std::string name;
-    std::string expected;
+    std::string expected;      // for the documentation
+    std::string expected_now;  // for a refusal
     std::function<bool(const Node&, Target&)> read;
     std::function<std::optional<std::string>(const Target&)> write;
   };
@@ -126,7 +136,7 @@ class Keys {
     for (const Entry& entry : entries_) {
       if (entry.name == name) {
         if (!entry.read(member.node, target)) {
-          return tl::unexpected(detail::wrong_value(file, member.node, name, entry.expected));
+          return tl::unexpected(detail::wrong_value(file, member.node, name, entry.expected_now));
         }
         return {};
       }

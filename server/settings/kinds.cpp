@@ -195,6 +195,16 @@ std::string OneOf::write(const Value& value) {
   return quoted(value);
 }
 
+std::string Preset::expected_now() const {
+  return fmt::format("{}: {}", what, choices_text(names));
+}
+std::optional<std::string> Preset::read(const Node& node) const {
+  return OneOf{names}.read(node);
+}
+std::string Preset::write(const Value& value) {
+  return quoted(value);
+}
+
 std::string SomeOf::expected() const {
   return fmt::format("an array, each at most once, of {}", choices_text(choices));
 }

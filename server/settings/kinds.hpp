@@ -102,6 +102,18 @@ struct OneOf {
   [[nodiscard]] static std::string write(const Value& value);
 };
 
+// One of the names that another room knows; the list grows without the documentation changing.
+struct Preset {
+  using Value = std::string;
+  std::string what;  // "the name of a table in config/tables"
+  std::vector<std::string> names;
+
+  [[nodiscard]] std::string expected() const { return what; }
+  [[nodiscard]] std::string expected_now() const;  // with the names, for a refusal
+  [[nodiscard]] std::optional<Value> read(const Node& node) const;
+  [[nodiscard]] static std::string write(const Value& value);
+};
+
 // An array without repetitions of some of the choices; the order means something.
 struct SomeOf {
   using Value = std::vector<std::string>;

@@ -115,9 +115,10 @@ Keys<TournamentSettings> make_keys() {
       "noise", OneOf{{"none", "low", "olympiad", "high"}},
       [](auto& s) -> auto& { return s.noise; });
   keys.add(
-      "table", OneOf{physics::preset_table_names()}, [](auto& s) -> auto& { return s.table; });
+      "table", Preset{"the name of a table preset", physics::preset_table_names()},
+      [](auto& s) -> auto& { return s.table; });
   keys.add(
-      "physics", OneOf{physics::preset_material_names()},
+      "physics", Preset{"the name of a materials preset", physics::preset_material_names()},
       [](auto& s) -> auto& { return s.physics; });
   keys.add(
       "rack_gap_mm", Millimetres{0, 5}, [](auto& s) -> auto& { return s.rack_gap; });
