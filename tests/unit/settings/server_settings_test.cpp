@@ -90,7 +90,7 @@ TEST(ServerSettings, OnlyHostAndPortIsAnAddress) {
 
 TEST(ServerSettings, WhatIsNotTomlSaysWhere) {
   EXPECT_THAT(refusal("name = \"x\"\nlisten = \n"), StartsWith("s.toml:2:"));
-  EXPECT_THAT(refusal("name = \"x\"\nname = \"y\"\n"), StartsWith("s.toml:2:1: not TOML: "));
+  EXPECT_THAT(refusal("name = \"x\"\nname = \"y\"\n"), StartsWith("s.toml:2:8: not TOML: "));
   EXPECT_THAT(refusal("name = \"\xff\xfe\""), HasSubstr("not TOML"));
 }
 
