@@ -1,0 +1,129 @@
+#include "clients/bots/exhibition.hpp"
+
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "clients/bots/dice.hpp"
+#include "physics/simulator.hpp"
+
+namespace poolhall::bots {
+namespace {
+
+constexpr std::uint32_t most_refusals = 3;
+
+class Exhibition {
+ public:
+  Exhibition(const ExhibitionSettings& settings, const std::array<client::PlayerFactory, 2>& makers)
+      : settings_(settings),
+        table_(physics::preset_table(settings.table).value()),
+        materials_(physics::preset_materials(settings.materials).value()),
+        noise_(physics::preset_noise(settings.noise).value()),
+        state_(rules::new_game(settings.game, table_, materials_)) {
+    const std::string name = "exhibition-" + std::to_string(settings.seed);
+    for (const rules::Seat seat : {rules::Seat::first, rules::Seat::second}) {
+      const std::size_t i = rules::index(seat);
+      infos_[i] = {name, seat, "", settings.game.rules, table_, materials_, noise_};
+      players_[i] = makers[i](infos_[i]);
+    }
+  }
+
+  ExhibitionGame play() {
+    while (!state_.result && game_.turns < settings_.most_turns) {
+      ++game_.turns;
+      play_turn();
+    }
+    game_.result =
+        state_.result.value_or(rules::GameResult{std::nullopt, rules::EndReason::void_game});
+    return game_;
+  }
+
+ private:
+  void play_turn() {
+    const rules::Seat seat = state_.to_move;
+    for (std::uint32_t refusals = 0; refusals < most_refusals; ++refusals) {
+      const client::Move move = ask(seat, refusals);
+      if (std::visit([&](const auto& chosen) { return take(seat, chosen); }, move)) {
+        return;
+      }
+      ++game_.seats[rules::index(seat)].refused;
+    }
+    ++game_.seats[rules::index(seat)].fouls;
+    state_ =
+        rules::judge_lost_turn(state_, rules::FoulCode::too_many_refusals, table_, materials_).next;
+  }
+
+  client::Move ask(rules::Seat seat, std::uint32_t refusals) {
+    const std::size_t i = rules::index(seat);
+    const auto begin = std::chrono::steady_clock::now();
+    client::Move move = players_[i]->choose({infos_[i], state_, {}, refusals});
+    const std::chrono::nanoseconds thought = std::chrono::steady_clock::now() - begin;
+    game_.seats[i].thinking += thought;
+    game_.seats[i].longest = std::max(game_.seats[i].longest, thought);
+    return move;
+  }
+
+  // Each says whether the move was accepted.
+  bool take(rules::Seat, const rules::Decision& decision) {
+    auto next = rules::decide(state_, decision, table_, materials_);
+    if (next) {
+      state_ = *std::move(next);
+    }
+    return next.has_value();
+  }
+
+  bool take(rules::Seat seat, const client::Concede&) {
+    state_ = rules::ended(state_, {rules::other(seat), rules::EndReason::conceded});
+    return true;
+  }
+
+  bool take(rules::Seat seat, const client::Shot& shot) {
+    const auto ready = rules::prepare_shot(state_, shot.call, shot.cue_ball, table_, materials_);
+    if (!ready) {
+      return false;
+    }
+    const auto balls = rules::balls_on_table(*ready);
+    if (!physics::check_shot(shot.stroke, balls, table_, materials_)) {
+      return false;
+    }
+    Dice dice(Dice::key(settings_.seed, "noise"), state_.turn);
+    const auto executed = physics::nearest_possible_shot(
+        physics::with_noise(shot.stroke, noise_, dice.deviates()), balls, table_, materials_);
+    const auto simulation =
+        physics::simulate(physics::Scene<double>{table_, materials_, balls, executed.shot}, {});
+    const auto ruling =
+        simulation ? rules::judge(*ready, shot.call, simulation->events, table_, materials_)
+                   : rules::Expected<rules::Ruling>{tl::unexpect, rules::Refusal{}};
+    if (!ruling) {
+      state_ = rules::ended(state_, {std::nullopt, rules::EndReason::void_game});
+      return true;
+    }
+    record(game_.seats[rules::index(seat)], seat, *ruling);
+    state_ = ruling->next;
+    return true;
+  }
+
+  static void record(SeatRecord& record, rules::Seat seat, const rules::Ruling& ruling) {
+    ++record.shots;
+    record.fouls += ruling.fouls.empty() ? 0U : 1U;
+    record.pots += ruling.legal && ruling.next.to_move == seat ? 1U : 0U;
+  }
+
+  ExhibitionSettings settings_;
+  physics::Table table_;
+  physics::Materials materials_;
+  physics::NoiseLevel noise_;
+  rules::GameState state_;
+  std::array<client::GameInfo, 2> infos_;
+  std::array<std::unique_ptr<client::Player>, 2> players_;
+  ExhibitionGame game_;
+};
+
+}  // namespace
+
+ExhibitionGame play_exhibition(const ExhibitionSettings& settings,
+                               const std::array<client::PlayerFactory, 2>& players) {
+  return Exhibition(settings, players).play();
+}
+
+}  // namespace poolhall::bots

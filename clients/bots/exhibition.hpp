@@ -1,0 +1,47 @@
+// Games inside one process, without server, sockets and clocks: for measuring how strong a bot is.
+// A shot goes the way that it goes on the server: prepared, noise added, simulated, judged.
+//
+//   ExhibitionGame game = play_exhibition({.seed = 7},
+//                                         {*house_bot("greedy", {}), *house_bot("random", {})});
+//   game.result.winner
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "clients/cpp/player.hpp"
+
+namespace poolhall::bots {
+
+struct ExhibitionSettings {
+  rules::GameSettings game{};
+  std::string table = "olympiad";
+  std::string materials = "olympiad";
+  std::string noise = "olympiad";
+  std::uint64_t seed = 1;  // of the noise
+  std::uint32_t most_turns = 2000;
+};
+
+struct SeatRecord {
+  std::uint32_t shots = 0;
+  std::uint32_t refused = 0;
+  std::uint32_t fouls = 0;
+  std::uint32_t pots = 0;  // shots after which the player had the table again
+  std::chrono::nanoseconds thinking{};
+  std::chrono::nanoseconds longest{};  // over one move
+};
+
+struct ExhibitionGame {
+  rules::GameResult result{};
+  std::uint32_t turns = 0;
+  std::array<SeatRecord, 2> seats{};  // by seat
+};
+
+// Ends with EndReason::void_game if the turns run out or the simulator or the referee refuses.
+[[nodiscard]] ExhibitionGame play_exhibition(const ExhibitionSettings& settings,
+                                             const std::array<client::PlayerFactory, 2>& players);
+
+}  // namespace poolhall::bots

@@ -1,0 +1,29 @@
+#include "clients/bots/house_bots.hpp"
+
+#include <memory>
+
+#include "clients/bots/greedy_bot.hpp"
+#include "clients/bots/random_bot.hpp"
+
+namespace poolhall::bots {
+
+std::optional<client::PlayerFactory> house_bot(std::string_view name,
+                                               const HouseBotSettings& settings) {
+  if (name == "random") {
+    return [settings](const client::GameInfo& info) -> std::unique_ptr<client::Player> {
+      return std::make_unique<RandomBot>(info, settings.seed);
+    };
+  }
+  if (name == "greedy") {
+    return [settings](const client::GameInfo& info) -> std::unique_ptr<client::Player> {
+      return std::make_unique<GreedyBot>(info, GreedySettings{.seed = settings.seed});
+    };
+  }
+  return std::nullopt;
+}
+
+std::vector<std::string> house_bot_names() {
+  return {"random", "greedy"};
+}
+
+}  // namespace poolhall::bots

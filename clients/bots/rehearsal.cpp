@@ -1,0 +1,151 @@
+#include "clients/bots/rehearsal.hpp"
+
+#include <algorithm>
+
+namespace poolhall::bots {
+namespace {
+
+constexpr double won = 2;
+constexpr double with_ball_in_hand = 0.9;
+constexpr double with_ball_in_kitchen = 0.55;
+constexpr double with_choice = 0.5;
+constexpr double with_break = 0.35;
+constexpr double with_table = 0.1;     // and nothing to pot
+constexpr double with_sure_pot = 0.8;  // the table and a pot that cannot fail
+constexpr double per_ball = 0.03;
+
+int balls_left(const rules::GameState& state, rules::Group group) {
+  return static_cast<int>(std::ranges::count_if(state.balls, [&](const rules::BallPlace& ball) {
+    const unsigned n = physics::number(ball.id);
+    const bool mine = group == rules::Group::solids ? n >= 1 && n <= 7 : n >= 9;
+    return mine && ball.where == rules::Whereabouts::on_table;
+  }));
+}
+
+// How many balls fewer the player in `seat` has to pot than the opponent.
+int lead_in_balls(const rules::GameState& state, rules::Seat seat) {
+  const auto* memory = std::get_if<rules::EightBallMemory>(&state.memory);
+  if (memory == nullptr || !memory->first_seat_group) {
+    return 0;
+  }
+  const int solids = balls_left(state, rules::Group::solids);
+  const int stripes = balls_left(state, rules::Group::stripes);
+  const bool has_solids =
+      (*memory->first_seat_group == rules::Group::solids) == (seat == rules::Seat::first);
+  return has_solids ? stripes - solids : solids - stripes;
+}
+
+}  // namespace
+
+PositionValue::PositionValue(const physics::Table& table, const physics::Materials& materials,
+                             double aim_error)
+    : table_(table), materials_(materials), aim_error_(aim_error) {}
+
+double PositionValue::mover_worth(const rules::GameState& state) const {
+  switch (state.kind) {
+    case rules::TurnKind::break_shot:
+      return with_break;
+    case rules::TurnKind::ball_in_hand:
+      return with_ball_in_hand;
+    case rules::TurnKind::ball_in_hand_behind_head_string:
+      return with_ball_in_kitchen;
+    case rules::TurnKind::decision:
+      return with_choice;
+    case rules::TurnKind::shot:
+      break;
+  }
+  const Layout layout = layout_of(state, table_, materials_);
+  const auto cue = std::ranges::find(layout.balls, physics::cue_ball, &physics::Ball<double>::id);
+  if (cue == layout.balls.end()) {
+    return with_table;
+  }
+  const auto targets = target_balls(state);
+  const auto lines = pot_lines(layout, cue->position, targets, aim_error_);
+  const double best = lines.empty() ? 0.0 : lines.front().chance;
+  return with_table + (with_sure_pot - with_table) * best;
+}
+
+double PositionValue::of(const rules::GameState& state, rules::Seat seat) const {
+  if (state.result) {
+    if (!state.result->winner) {
+      return 0;
+    }
+    return *state.result->winner == seat ? won : -won;
+  }
+  const double worth = mover_worth(state);
+  return (state.to_move == seat ? worth : -worth) + per_ball * lead_in_balls(state, seat);
+}
+
+physics::NoiseLevel reckoned_noise(const client::GameInfo& info) {
+  return info.noise ? *info.noise : physics::preset_noise("olympiad").value();
+}
+
+Rehearsal::Rehearsal(const client::TurnView& turn, Dice dice)
+    : turn_(turn),
+      noise_(reckoned_noise(turn.info)),
+      position_value_(turn.info.table, turn.info.materials, noise_.phi),
+      scene_{turn.info.table, turn.info.materials, {}, {}} {
+  deviates_.reserve(max_samples);
+  for (std::size_t i = 0; i < max_samples; ++i) {
+    deviates_.push_back(dice.deviates());
+  }
+}
+
+std::optional<rules::GameState> Rehearsal::ready(const client::Shot& shot) const {
+  auto state = rules::prepare_shot(turn_.state, shot.call, shot.cue_ball, turn_.info.table,
+                                   turn_.info.materials);
+  if (!state || !physics::check_shot(shot.stroke, rules::balls_on_table(*state), turn_.info.table,
+                                     turn_.info.materials)) {
+    return std::nullopt;
+  }
+  return *std::move(state);
+}
+
+std::optional<rules::Ruling> Rehearsal::run(const rules::GameState& ready, const client::Shot& shot,
+                                            const physics::CueShot<double>& executed) {
+  scene_.balls = rules::balls_on_table(ready);
+  scene_.shot =
+      physics::nearest_possible_shot(executed, scene_.balls, scene_.table, scene_.materials).shot;
+  const auto simulation = physics::simulate(scene_, {});
+  if (!simulation) {
+    return std::nullopt;
+  }
+  events_ += simulation->events.size();
+  auto ruling = rules::judge(ready, shot.call, simulation->events, scene_.table, scene_.materials);
+  if (!ruling) {
+    return std::nullopt;
+  }
+  return *std::move(ruling);
+}
+
+std::optional<rules::Ruling> Rehearsal::exact(const client::Shot& shot) {
+  const auto state = ready(shot);
+  return state ? run(*state, shot, shot.stroke) : std::nullopt;
+}
+
+std::optional<double> Rehearsal::exact_value(const client::Shot& shot) {
+  const auto ruling = exact(shot);
+  if (!ruling) {
+    return std::nullopt;
+  }
+  return position_value_.of(ruling->next, turn_.info.seat);
+}
+
+std::optional<double> Rehearsal::value(const client::Shot& shot, SampleRange samples) {
+  const auto state = ready(shot);
+  if (!state || samples.count == 0) {
+    return std::nullopt;
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < samples.count; ++i) {
+    const auto& deviates = deviates_[(samples.first + i) % max_samples];
+    const auto ruling = run(*state, shot, physics::with_noise(shot.stroke, noise_, deviates));
+    if (!ruling) {
+      return std::nullopt;
+    }
+    sum += position_value_.of(ruling->next, turn_.info.seat);
+  }
+  return sum / static_cast<double>(samples.count);
+}
+
+}  // namespace poolhall::bots
