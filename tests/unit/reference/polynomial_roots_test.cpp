@@ -1,0 +1,59 @@
+#include "physics/reference/polynomial_roots.hpp"
+
+#include <gtest/gtest.h>
+
+namespace poolhall::physics::reference {
+namespace {
+
+// The polynomial with these roots and the leading coefficient `lead`.
+Polynomial with_roots(const std::vector<Number>& roots, const Number& lead) {
+  Polynomial p{lead};
+  for (const Number& root : roots) {
+    Polynomial next(p.size() + 1);
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      next[i + 1] += p[i];
+      next[i] -= root * p[i];
+    }
+    p = next;
+  }
+  return p;
+}
+
+TEST(PolynomialRoots, FindsEveryFallOfAQuarticAndNoRise) {
+  const Polynomial p = with_roots({1, 2, 3, 4}, 1);  // falls at 1 and 3, rises at 2 and 4
+  const std::vector<Number> found = falls(p, 10);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_LT(abs(found[0] - 1), Number("1e-98"));
+  EXPECT_LT(abs(found[1] - 3), Number("1e-98"));
+}
+
+TEST(PolynomialRoots, FindsRootsOneTrillionthOfATrillionthApart) {
+  const Number gap("1e-24");
+  const std::vector<Number> found = falls(with_roots({1, 1 + gap, 2, 3}, 1), 10);
+  ASSERT_EQ(found.size(), 2u);
+  EXPECT_LT(abs(found[0] - 1), Number("1e-70"));
+}
+
+TEST(PolynomialRoots, TouchingZeroFromAboveIsNoFall) {
+  EXPECT_TRUE(falls(with_roots({1, 1}, 1), 10).empty());
+}
+
+TEST(PolynomialRoots, ATripleRootIsPassed) {
+  const std::vector<Number> found = falls(with_roots({2, 2, 2}, -1), 10);
+  ASSERT_EQ(found.size(), 1u);
+  EXPECT_LT(abs(found[0] - 2), Number("1e-30"));
+}
+
+TEST(PolynomialRoots, StartingAtZeroAndFallingIsNowAndRisingIsNot) {
+  EXPECT_EQ(falls({0, -1}, 10), (std::vector<Number>{0}));
+  EXPECT_EQ(falls({0, 0, -1}, 10), (std::vector<Number>{0}));
+  EXPECT_TRUE(falls({0, 1}, 10).empty());
+  EXPECT_TRUE(falls({0, 0, 1}, 10).empty());
+}
+
+TEST(PolynomialRoots, RootsBeyondTheEndDoNotCount) {
+  EXPECT_TRUE(falls(with_roots({11}, -1), 10).empty());
+}
+
+}  // namespace
+}  // namespace poolhall::physics::reference
