@@ -28,7 +28,8 @@ enum class StorageFault : std::uint8_t {
 };
 [[nodiscard]] std::string_view name(StorageFault fault);
 
-// Whether the same write may succeed later without being changed.
+// Whether the trouble is the file's or the disk's rather than the write's: the same write may
+// succeed later, when somebody has seen to it.
 [[nodiscard]] bool may_pass(StorageFault fault);
 
 struct StorageError {

@@ -70,6 +70,9 @@ struct EntryRecord {
   AgentId agent{};
   std::uint32_t place = 0;  // in the order of entering, from 0
   bool withdrawn = false;
+  std::optional<std::string> house_bot{};    // played by a process that the server starts,
+  std::vector<std::string> house_options{};  // with these options,
+  std::optional<std::string> command{};      // or with this command
 };
 
 // The terms under which a game is played.
@@ -100,6 +103,7 @@ struct MatchRecord {
   std::uint32_t games = 1;
   TermsRecord terms;
   std::uint64_t seed = 0;  // of the racks
+  bool mirrored = false;   // games 2k and 2k + 1 share their rack
   bool over = false;
   UnixMicros created{};
   std::optional<UnixMicros> finished{};
