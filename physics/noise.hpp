@@ -31,7 +31,8 @@ struct NoiseLevel {
 // Standard normal deviates for a, b, theta, phi, speed, in this order.
 using ShotDeviates = std::array<double, 5>;
 
-// `intended` with noise added; may be an impossible shot (nearest_possible_shot).
+// `intended` with noise added in millimetres and degrees, so that `given` of the result is exactly
+// what is played; may be an impossible shot (nearest_possible_shot).
 [[nodiscard]] CueShot<double> with_noise(const CueShot<double>& intended, const NoiseLevel& level,
                                          const ShotDeviates& deviates);
 

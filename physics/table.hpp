@@ -14,6 +14,8 @@
 #include <variant>
 #include <vector>
 
+#include "physics/expected.hpp"
+
 namespace poolhall::physics {
 
 enum class PocketId : std::uint8_t {
@@ -64,18 +66,23 @@ struct Jaws {
 using Pockets = std::variant<NoPockets, MouthLines, Jaws>;
 
 struct Table {
-  std::string name;          // of the preset, "" when given inline
-  double width = 1.116;      // m, between the noses
-  double length = 2.236;     // m, between the noses
+  std::string name;       // of the preset, "" when given inline
+  double width = 1.116;   // m, between the noses
+  double length = 2.236;  // m, between the noses
   Pockets pockets = MouthLines{};
   std::optional<double> nose_height{};  // m above the cloth; unset: the material's
-  double head_string = 0;    // m, y of the head string (length / 4)
-  double foot_spot_x = 0;    // m (width / 2)
-  double foot_spot_y = 0;    // m (3 length / 4)
+  double head_string = 0;               // m, y of the head string (length / 4)
+  double foot_spot_x = 0;               // m (width / 2)
+  double foot_spot_y = 0;               // m (3 length / 4)
 };
 
 // The table of that name, compiled in from config/tables; nothing if there is none.
 [[nodiscard]] std::optional<Table> preset_table(std::string_view name);
 [[nodiscard]] std::vector<std::string> preset_table_names();
+
+// Whether each number is finite and in its range (Fault::not_finite, out_of_range) and balls of
+// this radius can play on it (Fault::bad_table); Error.field is the key in scenes and config
+// files ("/width", "/pockets/corner").
+[[nodiscard]] Expected<void> check_table(const Table& table, double ball_radius);
 
 }  // namespace poolhall::physics
