@@ -1,0 +1,214 @@
+#include "server/ratings/bradley_terry.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <Eigen/Dense>
+
+#include "server/ratings/connected_groups.hpp"
+
+namespace poolhall::ratings {
+namespace {
+
+constexpr double elo_per_logit = 400 / std::numbers::ln10;
+constexpr double normal_quantile_975 = 1.959963984540054;
+constexpr int max_newton_steps = 100;
+constexpr double step_tolerance = 1e-9;  // logits; the error left is about its square
+
+// Unknowns: the strength of each player that has one, in logits, and then perhaps the advantage
+// of the break. Each group of players has mean 0.
+struct Problem {
+  std::vector<RatedGame> games;                   // players are indices of unknowns
+  std::vector<std::vector<Eigen::Index>> groups;  // unknowns by group
+  Eigen::Index players = 0;
+  bool with_break = false;
+
+  [[nodiscard]] Eigen::Index unknowns() const { return players + (with_break ? 1 : 0); }
+};
+
+struct Fit {
+  Eigen::VectorXd values;
+  Eigen::MatrixXd covariance;
+};
+
+Eigen::Index index_of(std::size_t player) {
+  return static_cast<Eigen::Index>(player);
+}
+
+double advantage(const Problem& problem, const Eigen::VectorXd& values, const RatedGame& game) {
+  return values[index_of(game.breaker)] - values[index_of(game.other)] +
+         (problem.with_break ? values[problem.players] : 0);
+}
+
+// log(1 / (1 + e^-x)) without overflow.
+double log_logistic(double x) {
+  return x < 0 ? x - std::log1p(std::exp(x)) : -std::log1p(std::exp(-x));
+}
+
+double log_likelihood(const Problem& problem, const Eigen::VectorXd& values) {
+  double sum = 0;
+  for (const RatedGame& game : problem.games) {
+    const double x = advantage(problem, values, game);
+    sum += game.count * (game.score * log_logistic(x) + (1 - game.score) * log_logistic(-x));
+  }
+  return sum;
+}
+
+struct Derivatives {
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd information;  // minus the second derivatives
+};
+
+Derivatives derivatives(const Problem& problem, const Eigen::VectorXd& values) {
+  const Eigen::Index n = problem.unknowns();
+  Derivatives d{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
+  for (const RatedGame& game : problem.games) {
+    const double p = 1 / (1 + std::exp(-advantage(problem, values, game)));
+    Eigen::VectorXd direction = Eigen::VectorXd::Zero(n);
+    direction[index_of(game.breaker)] = 1;
+    direction[index_of(game.other)] = -1;
+    if (problem.with_break) {
+      direction[problem.players] = 1;
+    }
+    d.gradient += game.count * (game.score - p) * direction;
+    d.information.noalias() += (game.count * p * (1 - p)) * direction * direction.transpose();
+  }
+  return d;
+}
+
+// The likelihood does not change when a whole group moves; adding the square of each group's sum
+// fixes its mean at 0 and leaves everything else as it is.
+void fix_means(const Problem& problem, Eigen::MatrixXd& information) {
+  for (const auto& group : problem.groups) {
+    for (const Eigen::Index i : group) {
+      for (const Eigen::Index j : group) {
+        information(i, j) += 1;
+      }
+    }
+  }
+}
+
+// Takes the added squares out of the inverse again: they gave each group's mean a variance.
+void release_means(const Problem& problem, Eigen::MatrixXd& covariance) {
+  for (const auto& group : problem.groups) {
+    const auto size = static_cast<double>(group.size());
+    for (const Eigen::Index i : group) {
+      for (const Eigen::Index j : group) {
+        covariance(i, j) -= 1 / (size * size);
+      }
+    }
+  }
+}
+
+// Newton's method on the concave likelihood, steps halved until they do not lose. Nothing when
+// there is no finite maximum or it is not unique.
+std::optional<Fit> maximise(const Problem& problem) {
+  Eigen::VectorXd values = Eigen::VectorXd::Zero(problem.unknowns());
+  double likelihood = log_likelihood(problem, values);
+  for (int iteration = 0; iteration < max_newton_steps; ++iteration) {
+    Derivatives d = derivatives(problem, values);
+    fix_means(problem, d.information);
+    const Eigen::LLT<Eigen::MatrixXd> factors(d.information);
+    if (factors.info() != Eigen::Success || !(factors.rcond() > 1e-12)) {
+      return std::nullopt;
+    }
+    Eigen::VectorXd step = factors.solve(d.gradient);
+    // Where there is no maximum the steps stay near 1 for ever, so this one is near it.
+    if (step.cwiseAbs().maxCoeff() <= step_tolerance) {
+      Eigen::MatrixXd covariance =
+          factors.solve(Eigen::MatrixXd::Identity(problem.unknowns(), problem.unknowns()));
+      release_means(problem, covariance);
+      return Fit{values + step, covariance};
+    }
+    const double rounding = 1e-12 * (1 + std::abs(likelihood));
+    while (log_likelihood(problem, values + step) < likelihood - rounding) {
+      step /= 2;
+    }
+    values += step;
+    likelihood = log_likelihood(problem, values);
+  }
+  return std::nullopt;
+}
+
+RatingStatus status_without_rating(std::size_t player, const std::vector<RatedGame>& games) {
+  double played = 0;
+  double scored = 0;
+  for (const RatedGame& game : games) {
+    if (game.breaker == player || game.other == player) {
+      played += game.count;
+      scored += game.count * (game.breaker == player ? game.score : 1 - game.score);
+    }
+  }
+  if (played == 0) {
+    return RatingStatus::no_games;
+  }
+  if (scored == played) {
+    return RatingStatus::won_everything;
+  }
+  return scored == 0 ? RatingStatus::lost_everything : RatingStatus::unconnected;
+}
+
+struct Compared {
+  Problem problem;
+  std::vector<std::optional<Eigen::Index>> unknown_of;  // by player
+};
+
+// The part of the results that maximum likelihood can tell about: games inside groups.
+Compared comparable(std::size_t players, const std::vector<std::size_t>& group,
+                    const std::vector<RatedGame>& games) {
+  Compared compared{{}, std::vector<std::optional<Eigen::Index>>(players)};
+  std::vector<std::vector<Eigen::Index>> groups(players);
+  for (std::size_t player = 0; player < players; ++player) {
+    if (std::count(group.begin(), group.end(), group[player]) > 1) {
+      compared.unknown_of[player] = compared.problem.players++;
+      groups[group[player]].push_back(*compared.unknown_of[player]);
+    }
+  }
+  std::copy_if(groups.begin(), groups.end(), std::back_inserter(compared.problem.groups),
+               [](const auto& members) { return !members.empty(); });
+  for (RatedGame game : games) {
+    if (game.count > 0 && group[game.breaker] == group[game.other]) {
+      game.breaker = static_cast<std::size_t>(*compared.unknown_of[game.breaker]);
+      game.other = static_cast<std::size_t>(*compared.unknown_of[game.other]);
+      compared.problem.games.push_back(game);
+    }
+  }
+  return compared;
+}
+
+Estimate estimate(const Fit& fit, Eigen::Index unknown) {
+  return {elo_per_logit * fit.values[unknown],
+          elo_per_logit * normal_quantile_975 * std::sqrt(fit.covariance(unknown, unknown))};
+}
+
+}  // namespace
+
+RatingTable bradley_terry(std::size_t players, const std::vector<RatedGame>& games) {
+  RatingTable table;
+  table.players.resize(players);
+  const std::vector<std::size_t> group = connected_groups(players, games);
+  Compared compared = comparable(players, group, games);
+  std::optional<Fit> fit;
+  if (compared.problem.players > 0) {
+    compared.problem.with_break = true;
+    fit = maximise(compared.problem);
+    if (fit) {
+      table.break_advantage = estimate(*fit, compared.problem.players);
+    } else {
+      compared.problem.with_break = false;
+      fit = maximise(compared.problem);
+    }
+  }
+  for (std::size_t player = 0; player < players; ++player) {
+    const auto unknown = compared.unknown_of[player];
+    if (unknown && fit) {
+      table.players[player] = {RatingStatus::rated, estimate(*fit, *unknown), group[player]};
+    } else {
+      table.players[player].status = status_without_rating(player, games);
+    }
+  }
+  return table;
+}
+
+}  // namespace poolhall::ratings
