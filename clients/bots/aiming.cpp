@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "physics/simulator.hpp"
 
@@ -28,8 +29,8 @@ class Bench {
 
   // The angle in rad by which the object ball leaves to the left of its course; nothing if it is
   // not hit.
-  [[nodiscard]] std::optional<double> miss(const physics::CueShot<double>& stroke) {
-    scene_.shot = stroke;
+  [[nodiscard]] std::optional<double> miss(const protocol::ShotParams& stroke) {
+    scene_.shot = protocol::to_physics(stroke);
     const auto simulation = physics::simulate(scene_, options_);
     if (!simulation) {
       return std::nullopt;
@@ -75,7 +76,7 @@ std::optional<Aimed> aim(const PotLine& line, StrokeWish wish,
   for (int step = 0; step < most_steps && miss && std::abs(*miss) > good_enough; ++step) {
     const double before = *miss;
     const double turn = std::clamp(-before / slope, -0.05, 0.05);
-    stroke->phi += turn;
+    stroke->phi += turn * 180 / std::numbers::pi;
     miss = bench.miss(*stroke);
     if (miss && turn != 0 && std::abs(*miss - before) > 1e-9) {
       slope = (*miss - before) / turn;

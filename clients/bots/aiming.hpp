@@ -13,7 +13,7 @@
 namespace poolhall::bots {
 
 struct Aimed {
-  physics::CueShot<double> stroke{};
+  protocol::ShotParams stroke{};
   std::uint64_t events = 0;  // simulated on the way
 };
 

@@ -126,7 +126,7 @@ bool is_reachable(const client::TurnView& turn, const PotLine& line) {
 std::vector<Line> open_lines(const client::TurnView& turn) {
   const auto targets = target_balls(turn.state);
   const Layout layout = layout_of(turn.state, turn.info.table, turn.info.materials);
-  const double aim_error = reckoned_noise(turn.info).phi;
+  const double error = aim_error(turn.info);
   std::vector<Line> lines;
   for (const auto& start : starts(turn, layout, targets)) {
     const auto state = placed(turn, start);
@@ -134,7 +134,7 @@ std::vector<Line> open_lines(const client::TurnView& turn) {
     if (!cue) {
       continue;
     }
-    for (const auto& line : pot_lines(layout, *cue, targets, aim_error)) {
+    for (const auto& line : pot_lines(layout, *cue, targets, error)) {
       if (is_reachable(turn, line)) {
         lines.push_back({line, start});
       }

@@ -18,7 +18,7 @@ class Exhibition {
       : settings_(settings),
         table_(physics::preset_table(settings.table).value()),
         materials_(physics::preset_materials(settings.materials).value()),
-        noise_(physics::preset_noise(settings.noise).value()),
+        noise_(protocol::noise_preset(settings.noise).value()),
         state_(rules::new_game(settings.game, table_, materials_)) {
     const std::string name = "exhibition-" + std::to_string(settings.seed);
     for (const rules::Seat seat : {rules::Seat::first, rules::Seat::second}) {
@@ -83,14 +83,15 @@ class Exhibition {
       return false;
     }
     const auto balls = rules::balls_on_table(*ready);
-    if (!physics::check_shot(shot.stroke, balls, table_, materials_)) {
+    if (!physics::check_shot(protocol::to_physics(shot.stroke), balls, table_, materials_)) {
       return false;
     }
     Dice dice(Dice::key(settings_.seed, "noise"), state_.turn);
-    const auto executed = physics::nearest_possible_shot(
-        physics::with_noise(shot.stroke, noise_, dice.deviates()), balls, table_, materials_);
-    const auto simulation =
-        physics::simulate(physics::Scene<double>{table_, materials_, balls, executed.shot}, {});
+    const auto executed =
+        protocol::executed_shot(shot.stroke, noise_, dice.deviates(), balls, table_, materials_);
+    const auto simulation = physics::simulate(
+        physics::Scene<double>{table_, materials_, balls, protocol::to_physics(executed.params)},
+        {});
     const auto ruling =
         simulation ? rules::judge(*ready, shot.call, simulation->events, table_, materials_)
                    : rules::Expected<rules::Ruling>{tl::unexpect, rules::Refusal{}};
@@ -112,7 +113,7 @@ class Exhibition {
   ExhibitionSettings settings_;
   physics::Table table_;
   physics::Materials materials_;
-  physics::NoiseLevel noise_;
+  protocol::NoiseParams noise_;
   rules::GameState state_;
   std::array<client::GameInfo, 2> infos_;
   std::array<std::unique_ptr<client::Player>, 2> players_;

@@ -38,7 +38,7 @@ GreedyBot::GreedyBot(const client::GameInfo& info, const GreedySettings& setting
     : settings_(settings), key_(Dice::key(settings.seed, info.game)) {}
 
 rules::Decision GreedyBot::best_decision(const client::TurnView& turn) const {
-  const PositionValue value(turn.info.table, turn.info.materials, reckoned_noise(turn.info).phi);
+  const PositionValue value(turn.info.table, turn.info.materials, aim_error(turn.info));
   rules::Decision best = turn.state.options.front();
   double best_value = -4;
   for (const rules::Decision option : turn.state.options) {

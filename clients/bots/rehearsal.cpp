@@ -1,6 +1,7 @@
 #include "clients/bots/rehearsal.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 namespace poolhall::bots {
 namespace {
@@ -76,14 +77,18 @@ double PositionValue::of(const rules::GameState& state, rules::Seat seat) const 
   return (state.to_move == seat ? worth : -worth) + per_ball * lead_in_balls(state, seat);
 }
 
-physics::NoiseLevel reckoned_noise(const client::GameInfo& info) {
-  return info.noise ? *info.noise : physics::preset_noise("olympiad").value();
+protocol::NoiseParams reckoned_noise(const client::GameInfo& info) {
+  return info.noise ? *info.noise : protocol::noise_preset("olympiad").value();
+}
+
+double aim_error(const client::GameInfo& info) {
+  return reckoned_noise(info).phi * std::numbers::pi / 180;
 }
 
 Rehearsal::Rehearsal(const client::TurnView& turn, Dice dice)
     : turn_(turn),
       noise_(reckoned_noise(turn.info)),
-      position_value_(turn.info.table, turn.info.materials, noise_.phi),
+      position_value_(turn.info.table, turn.info.materials, aim_error(turn.info)),
       scene_{turn.info.table, turn.info.materials, {}, {}} {
   deviates_.reserve(max_samples);
   for (std::size_t i = 0; i < max_samples; ++i) {
@@ -94,18 +99,18 @@ Rehearsal::Rehearsal(const client::TurnView& turn, Dice dice)
 std::optional<rules::GameState> Rehearsal::ready(const client::Shot& shot) const {
   auto state = rules::prepare_shot(turn_.state, shot.call, shot.cue_ball, turn_.info.table,
                                    turn_.info.materials);
-  if (!state || !physics::check_shot(shot.stroke, rules::balls_on_table(*state), turn_.info.table,
-                                     turn_.info.materials)) {
+  if (!state ||
+      !physics::check_shot(protocol::to_physics(shot.stroke), rules::balls_on_table(*state),
+                           turn_.info.table, turn_.info.materials)) {
     return std::nullopt;
   }
   return *std::move(state);
 }
 
 std::optional<rules::Ruling> Rehearsal::run(const rules::GameState& ready, const client::Shot& shot,
-                                            const physics::CueShot<double>& executed) {
+                                            const protocol::ShotParams& executed) {
   scene_.balls = rules::balls_on_table(ready);
-  scene_.shot =
-      physics::nearest_possible_shot(executed, scene_.balls, scene_.table, scene_.materials).shot;
+  scene_.shot = protocol::to_physics(executed);
   const auto simulation = physics::simulate(scene_, {});
   if (!simulation) {
     return std::nullopt;
@@ -136,10 +141,13 @@ std::optional<double> Rehearsal::value(const client::Shot& shot, SampleRange sam
   if (!state || samples.count == 0) {
     return std::nullopt;
   }
+  const auto balls = rules::balls_on_table(*state);
   double sum = 0;
   for (std::size_t i = 0; i < samples.count; ++i) {
     const auto& deviates = deviates_[(samples.first + i) % max_samples];
-    const auto ruling = run(*state, shot, physics::with_noise(shot.stroke, noise_, deviates));
+    const auto executed = protocol::executed_shot(shot.stroke, noise_, deviates, balls,
+                                                  turn_.info.table, turn_.info.materials);
+    const auto ruling = run(*state, shot, executed.params);
     if (!ruling) {
       return std::nullopt;
     }

@@ -62,10 +62,10 @@ class Rehearsal {
   [[nodiscard]] std::optional<rules::GameState> ready(const client::Shot& shot) const;
   [[nodiscard]] std::optional<rules::Ruling> run(const rules::GameState& ready,
                                                  const client::Shot& shot,
-                                                 const physics::CueShot<double>& executed);
+                                                 const protocol::ShotParams& executed);
 
   const client::TurnView& turn_;
-  physics::NoiseLevel noise_;
+  protocol::NoiseParams noise_;
   PositionValue position_value_;
   std::vector<physics::ShotDeviates> deviates_;
   physics::Scene<double> scene_;
@@ -73,6 +73,8 @@ class Rehearsal {
 };
 
 // The noise that a bot reckons with: the announced one, or the Olympiad's where none is told.
-[[nodiscard]] physics::NoiseLevel reckoned_noise(const client::GameInfo& info);
+[[nodiscard]] protocol::NoiseParams reckoned_noise(const client::GameInfo& info);
+// Its standard deviation of the heading, in rad.
+[[nodiscard]] double aim_error(const client::GameInfo& info);
 
 }  // namespace poolhall::bots

@@ -14,15 +14,15 @@ constexpr double elevation_margin = 0.3 * degree;
 // In the vertical plane of the cue the contact point lies at the angle beta above the horizontal
 // on a circle of radius rho about the ball's centre; the cue's line passes the centre at the
 // distance rho sin(beta - theta).
-physics::CueShot<double> stroke_at(const StrokeWish& wish, double theta, double radius) {
+protocol::ShotParams stroke_at(const StrokeWish& wish, double theta, double radius) {
   const double rho = std::sqrt(std::max(radius * radius - wish.side * wish.side, 0.0));
   const double lift = rho > 0 ? std::asin(std::clamp(wish.follow / rho, -1.0, 1.0)) : 0.0;
   const double beta = std::min(theta + lift, 90 * degree);
-  return {.a = wish.side,
-          .b = rho * std::sin(beta),
-          .theta = theta,
-          .phi = wish.phi,
-          .speed = wish.speed};
+  return {.a = 1000 * wish.side,
+          .b = 1000 * rho * std::sin(beta),
+          .theta = theta / degree,
+          .phi = wish.phi / degree,
+          .v = wish.speed};
 }
 
 double next_elevation(double theta) {
@@ -31,16 +31,17 @@ double next_elevation(double theta) {
 
 }  // namespace
 
-std::optional<physics::CueShot<double>> clear_stroke(const StrokeWish& wish,
-                                                     const physics::BallSet<double>& balls,
-                                                     const physics::Table& table,
-                                                     const physics::Materials& materials) {
+std::optional<protocol::ShotParams> clear_stroke(const StrokeWish& wish,
+                                                 const physics::BallSet<double>& balls,
+                                                 const physics::Table& table,
+                                                 const physics::Materials& materials) {
   for (double theta = 0; theta < 88 * degree; theta = next_elevation(theta)) {
     const auto stroke = stroke_at(wish, theta, materials.ball_radius);
-    const auto checked = physics::check_shot(stroke, balls, table, materials);
+    const auto checked = physics::check_shot(protocol::to_physics(stroke), balls, table, materials);
     if (checked) {
       const auto safer = stroke_at(wish, theta + elevation_margin, materials.ball_radius);
-      return physics::check_shot(safer, balls, table, materials) ? safer : stroke;
+      return physics::check_shot(protocol::to_physics(safer), balls, table, materials) ? safer
+                                                                                       : stroke;
     }
     if (checked.error().fault != physics::Fault::cue_obstructed) {
       return std::nullopt;  // a higher cue would not help

@@ -6,11 +6,11 @@
 
 #include <optional>
 
-#include "physics/cue_strike.hpp"
+#include "protocol/units.hpp"
 
 namespace poolhall::bots {
 
-// A stroke without its elevation.
+// A stroke without its elevation, in SI units and radians.
 struct StrokeWish {
   double phi = 0;    // rad, heading
   double speed = 0;  // m/s, of the cue
@@ -21,7 +21,7 @@ struct StrokeWish {
 };
 
 // Nothing if the stick is in the way at any elevation. `balls` holds the cue ball in its place.
-[[nodiscard]] std::optional<physics::CueShot<double>> clear_stroke(
+[[nodiscard]] std::optional<protocol::ShotParams> clear_stroke(
     const StrokeWish& wish, const physics::BallSet<double>& balls, const physics::Table& table,
     const physics::Materials& materials);
 

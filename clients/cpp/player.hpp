@@ -5,11 +5,11 @@
 //   class Straight : public client::Player {
 //     client::Move choose(const client::TurnView& turn) override {
 //       if (turn.state.kind == rules::TurnKind::decision) return turn.state.options.front();
-//       return client::Shot{.stroke = {.phi = 1.57, .speed = 3}};
+//       return client::Shot{.stroke = {.theta = 5, .phi = 90, .v = 3}};
 //     }
 //   };
 //
-// SI units and radians; mm and degrees exist only on the wire.
+// Strokes and their noise are in mm, degrees and m/s, as on the wire; everything else is SI.
 #pragma once
 
 #include <chrono>
@@ -20,8 +20,7 @@
 #include <string>
 #include <variant>
 
-#include "physics/cue_strike.hpp"
-#include "physics/noise.hpp"
+#include "protocol/units.hpp"
 #include "rules/game_state.hpp"
 #include "rules/referee.hpp"
 
@@ -35,7 +34,7 @@ struct GameInfo {
   rules::RuleSet rules = rules::RuleSet::eight_ball;
   physics::Table table;
   physics::Materials materials;
-  std::optional<physics::NoiseLevel> noise{};  // unset: the tournament does not tell
+  std::optional<protocol::NoiseParams> noise{};  // unset: the tournament does not tell
 };
 
 struct Clock {
@@ -52,7 +51,7 @@ struct TurnView {
 };
 
 struct Shot {
-  physics::CueShot<double> stroke{};
+  protocol::ShotParams stroke{};
   std::optional<physics::Vec2<double>> cue_ball{};  // m; required with the ball in hand
   rules::Call call{};
 };
