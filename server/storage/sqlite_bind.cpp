@@ -39,12 +39,12 @@ Binder& Binder::operator<<(double value) {
 }
 
 Binder& Binder::operator<<(std::string_view text) {
-  // SQLiteCpp's own bindNoCopy of a text takes a std::string only.
-  const int result =
-      sqlite3_bind_text(statement_.getPreparedStatement(), next_++, text.data() ? text.data() : "",
-                        static_cast<int>(text.size()), SQLITE_STATIC);
-  if (result != SQLITE_OK)
-    throw SQLite::Exception("binding a text", result);
+  statement_.bind(next_++, std::string(text));
+  return *this;
+}
+
+Binder& Binder::operator<<(const std::string& text) {
+  statement_.bindNoCopy(next_++, text);
   return *this;
 }
 
@@ -59,25 +59,22 @@ Binder& Binder::operator<<(std::nullopt_t) {
 }
 
 Binder& Binder::operator<<(const AgentRecord& agent) {
-  return *this << number(agent.id) << std::string_view(agent.name) << agent.token_hash
-               << agent.house_bot << agent.created;
+  return *this << number(agent.id) << agent.name << agent.token_hash << agent.house_bot
+               << agent.created;
 }
 
 Binder& Binder::operator<<(const TournamentRecord& tournament) {
-  return *this << std::string_view(tournament.id) << number(tournament.wire_id)
-               << std::string_view(tournament.title) << std::string_view(tournament.settings)
-               << name(tournament.status) << tournament.created;
+  return *this << tournament.id << number(tournament.wire_id) << tournament.title
+               << tournament.settings << name(tournament.status) << tournament.created;
 }
 
 Binder& Binder::operator<<(const EntryRecord& entry) {
-  return *this << std::string_view(entry.tournament) << number(entry.agent)
-               << std::int64_t{entry.place} << std::int64_t{entry.withdrawn} << entry.house_bot
-               << entry.command;
+  return *this << entry.tournament << number(entry.agent) << std::int64_t{entry.place}
+               << std::int64_t{entry.withdrawn} << entry.house_bot << entry.command;
 }
 
 void Binder::put(const TermsRecord& terms) {
-  *this << rules::name(terms.rules) << std::string_view(terms.table)
-        << std::string_view(terms.materials) << std::string_view(terms.noise)
+  *this << rules::name(terms.rules) << terms.table << terms.materials << terms.noise
         << std::int64_t{terms.noise_hidden} << terms.rack_gap << terms.rack_jitter << terms.clock
         << terms.increment << terms.shot_cap << std::int64_t{terms.max_refusals}
         << terms.lag_per_turn << terms.lag_per_game;
@@ -114,9 +111,8 @@ Binder& Binder::operator<<(const GameRecord& game) {
   put(game.terms);
   *this << std::int64_t{index(game.breaker)} << static_cast<std::int64_t>(game.rack_seed)
         << game.key << game.noise.a << game.noise.b << game.noise.theta << game.noise.phi
-        << game.noise.v << game.commitment << std::string_view(game.initial_state)
-        << std::string_view(game.physics_version) << std::string_view(game.rules_version)
-        << game.created << std::int64_t{game.over};
+        << game.noise.v << game.commitment << game.initial_state << game.physics_version
+        << game.rules_version << game.created << std::int64_t{game.over};
   put(game.result);
   return *this << std::int64_t{game.turns} << game.head << std::int64_t{game.acknowledged[0]}
                << std::int64_t{game.acknowledged[1]} << game.finished << game.seal;
@@ -142,7 +138,7 @@ Binder& Binder::operator<<(const TurnRecord& turn) {
   *this << number(turn.game) << std::int64_t{turn.number} << name(turn.action)
         << std::int64_t{index(turn.seat)};
   if (turn.request)
-    *this << std::string_view(turn.request->json);
+    *this << turn.request->json;
   else
     *this << std::nullopt;
   if (turn.shot) {
@@ -160,11 +156,10 @@ Binder& Binder::operator<<(const TurnRecord& turn) {
   const ClockPart& clock = turn.clock;
   *this << std::int64_t{turn.refusals} << clock.used << clock.forgiven << clock.left[0]
         << clock.left[1] << clock.lag_left[0] << clock.lag_left[1] << turn.stored
-        << std::string_view(turn.physics_version) << std::string_view(turn.rules_version)
-        << turn.checksum << std::string_view(turn.state_before)
-        << std::string_view(turn.state_after) << turn.ruling;
+        << turn.physics_version << turn.rules_version << turn.checksum << turn.state_before
+        << turn.state_after << turn.ruling;
   if (turn.shot)
-    return *this << std::string_view(turn.shot->events);
+    return *this << turn.shot->events;
   return *this << std::nullopt;
 }
 

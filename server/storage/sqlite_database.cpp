@@ -65,7 +65,7 @@ class SqliteDatabase final : public Database {
     return connection_->guarded([&] {
       auto use = connection_->prepared(sql);
       Binder binder(*use);
-      (binder << ... << keys);
+      static_cast<void>((binder << ... << keys));
       std::vector<T> rows;
       while (use->executeStep()) {
         Columns columns(*use);

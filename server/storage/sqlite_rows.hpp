@@ -6,6 +6,7 @@
 //   Binder(insert) << turn;
 #pragma once
 
+#include <SQLiteCpp/Column.h>
 #include <SQLiteCpp/Statement.h>
 
 #include <cstdint>
@@ -47,8 +48,8 @@ inline constexpr std::string_view turn_columns =
 // "INSERT INTO table(columns) VALUES(?,?,...)"
 [[nodiscard]] std::string insert_sql(std::string_view table, std::string_view columns);
 
-// Binds values to a statement's parameters from the first on. Texts and blobs are not copied: they
-// must live until the statement is reset.
+// Binds values to a statement's parameters from the first on. Strings and digests are not copied:
+// they must live until the statement is reset.
 class Binder {
  public:
   explicit Binder(SQLite::Statement& statement) : statement_(statement) {}
@@ -56,6 +57,7 @@ class Binder {
   Binder& operator<<(std::int64_t value);
   Binder& operator<<(double value);
   Binder& operator<<(std::string_view text);
+  Binder& operator<<(const std::string& text);
   Binder& operator<<(const Digest& digest);
   Binder& operator<<(std::nullopt_t);
   template <class T>
