@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
 
 #include "physics/cue_strike.hpp"
 #include "physics/event_log.hpp"
@@ -24,7 +25,15 @@ struct Scene {
 };
 
 enum class ContactModel : std::uint8_t { cluster, sequential, hertz };
-enum class RootSolver : std::uint8_t { bracketed, closed_form };
+
+// `bracketed` is the project's own; the paper's closed form (Ferrari, Cardano) stands beside it,
+// as it is and with its roots polished, to be measured against it.
+enum class RootSolver : std::uint8_t { bracketed, closed_form, closed_form_polished };
+
+[[nodiscard]] std::string_view name(ContactModel model);
+[[nodiscard]] std::optional<ContactModel> contact_model(std::string_view name);
+[[nodiscard]] std::string_view name(RootSolver solver);
+[[nodiscard]] std::optional<RootSolver> root_solver(std::string_view name);
 
 struct SimulationOptions {
   ContactModel contact = ContactModel::cluster;
@@ -33,7 +42,11 @@ struct SimulationOptions {
   std::uint32_t event_limit = 1'000'000;
 };
 
-enum class Ending : std::uint8_t { at_rest, t_max, event_limit };
+// Without an event to come a simulation is at rest, even if a ball spins on for ever without
+// friction; `stopped`: the watch had its answer.
+enum class Ending : std::uint8_t { at_rest, t_max, event_limit, stopped };
+
+[[nodiscard]] std::string_view name(Ending ending);
 
 template <class Real>
 struct EnergyAccount {
@@ -50,6 +63,10 @@ struct Simulation {
   EnergyAccount<Real> energy;
   Ending ending = Ending::at_rest;
 };
+
+// Two balls may overlap, or a ball stand beyond a rail, by this much: what rounding of positions
+// given as decimals leaves.
+inline constexpr double position_tolerance = 1e-9;  // m
 
 // Why a scene cannot be simulated; Error.field as in a scene file ("/balls/3/x").
 template <class Real>

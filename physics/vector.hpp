@@ -2,6 +2,9 @@
 // their own.
 #pragma once
 
+#include <cmath>
+#include <limits>
+
 namespace poolhall::physics {
 
 template <class Real>
@@ -57,6 +60,28 @@ template <class Real>
 template <class Real>
 [[nodiscard]] constexpr Vec3<Real> cross(const Vec3<Real>& p, const Vec3<Real>& q) {
   return {p.y * q.z - p.z * q.y, p.z * q.x - p.x * q.z, p.x * q.y - p.y * q.x};
+}
+
+// |p|. Lengths whose square would underflow or overflow are scaled first.
+template <class Real>
+[[nodiscard]] Real length(const Vec2<Real>& p) {
+  using std::abs;
+  using std::sqrt;
+  const Real square = dot(p, p);
+  if (square > std::numeric_limits<Real>::min() / std::numeric_limits<Real>::epsilon() &&
+      square < std::numeric_limits<Real>::max()) {
+    return sqrt(square);
+  }
+  const Real larger = abs(p.x) > abs(p.y) ? abs(p.x) : abs(p.y);
+  if (!(larger > Real(0))) {
+    return Real(0);
+  }
+  const Vec2<Real> scaled{p.x / larger, p.y / larger};
+  return larger * sqrt(dot(scaled, scaled));
+}
+template <class Real>
+[[nodiscard]] Real length(const Vec3<Real>& p) {
+  return length(Vec2<Real>{length(Vec2<Real>{p.x, p.y}), p.z});
 }
 
 }  // namespace poolhall::physics

@@ -1,0 +1,15 @@
+// Kinetic energy of a ball: translation and rotation, I = 2/5 m R^2.
+#pragma once
+
+#include "physics/ball.hpp"
+#include "physics/coefficients.hpp"
+
+namespace poolhall::physics {
+
+template <class Real>
+[[nodiscard]] Real kinetic_energy(const Ball<Real>& ball, const Coefficients<Real>& c) {
+  const Real turning = c.radius * c.radius * dot(ball.angular_velocity, ball.angular_velocity);
+  return c.mass / Real(2) * (dot(ball.velocity, ball.velocity) + Real(2) / Real(5) * turning);
+}
+
+}  // namespace poolhall::physics
