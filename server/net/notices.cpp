@@ -30,7 +30,8 @@ protocol::Legal legal_in(const rules::GameState& state) {
   if (state.kind == rules::TurnKind::decision) {
     return protocol::LegalDecisions{state.options};
   }
-  return protocol::LegalBalls{rules::callable_balls(state)};
+  return protocol::LegalBalls{rules::callable_balls(state), rules::legal_first_balls(state),
+                              rules::legal_calls(state)};
 }
 
 }  // namespace

@@ -1,0 +1,132 @@
+// One game that is going on, between its agents' sessions, the worker threads and the database.
+// What is legal and whose time runs is match::Game's business; here is when things happen and who
+// hears of them: nothing is told before it is stored.
+//
+//   auto game = std::make_shared<LiveGame>(std::move(opened), card, services, Start::fresh);
+//   game->begin();
+//   game->take({asker, Seat::first, request, arrival});
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "server/match/game.hpp"
+#include "server/net/archive.hpp"
+#include "server/net/notices.hpp"
+#include "server/net/session.hpp"
+#include "server/storage/writer.hpp"
+
+namespace poolhall::net {
+
+class LiveGame;
+
+struct GameServices {
+  boost::asio::io_context& io;
+  boost::asio::thread_pool& workers;
+  storage::Writer& writer;
+  Archive& archive;
+  DeadlineQueue& deadlines;
+  AgentBook& book;
+  const WireTime& time;
+  const protocol::Limits& limits;
+  // The end is stored and told.
+  std::function<void(LiveGame&)> on_over;
+  // Nothing is in flight any more; only asked for once the server stops.
+  std::function<void()> on_quiet;
+};
+
+// The first turn waits for the agents, but not for ever.
+enum class Start : std::uint8_t {
+  fresh,   // for both; who alone has not come by then forfeits
+  resume,  // for the one to move; then the clock runs
+};
+
+// A request about a game, from a player of it.
+struct GameRequest {
+  Asker asker;
+  Seat seat = Seat::first;
+  std::variant<protocol::Shot, protocol::Decide, protocol::Concede> what;
+  SteadyTime read_at;
+};
+
+class LiveGame : public std::enable_shared_from_this<LiveGame> {
+ public:
+  LiveGame(match::Game game, GameCard card, GameServices& services, Start start);
+
+  // Tells the agents of it; the first turn comes when they are in.
+  void begin();
+  void take(GameRequest request);
+  void sync(const Asker& asker, Seat seat) const;
+  // A session of this player's is new: all that a bot without memory needs.
+  void agent_came(Seat seat);
+  // Whether this is the answer to the turn that waits for it.
+  [[nodiscard]] bool is_awaited(Seat seat, const protocol::Request& request) const;
+  void forfeit(Seat loser);
+  void make_void();
+  // No new turns; what is in flight finishes.
+  void halt();
+
+  [[nodiscard]] const storage::GameRecord& record() const { return game_.record(); }
+  [[nodiscard]] const match::Game& game() const { return game_; }
+  [[nodiscard]] const GameCard& card() const { return card_; }
+  [[nodiscard]] bool in_flight() const;
+  [[nodiscard]] std::optional<Seat> seat_of(storage::AgentId agent) const;
+  [[nodiscard]] protocol::GameListing listing_for(Seat seat) const;
+
+ private:
+  [[nodiscard]] match::Arrival arrival_of(const GameRequest& request) const;
+  [[nodiscard]] match::Answer ask(const GameRequest& request);
+  void act(match::Answer answer, const GameRequest& request);
+  void play(match::ShotJob job, const Asker& asker);
+  void settle(match::PlayOutcome outcome);
+  void write(match::Store what, const Asker& asker);
+  void post_write();
+  void written(const storage::Expected<void>& stored);
+  void not_written(const storage::StorageError& error);
+  void tell(const match::Store& what);
+  void tell_shot(const storage::TurnRecord& row);
+  void tell_decision(const storage::TurnRecord& row);
+  void tell_lost_turn(const storage::TurnRecord& row);
+  void tell_over();
+  void answer_from(const storage::TurnRecord& row, const GameRequest& request) const;
+  void look_up(std::uint32_t turn, const GameRequest& request) const;
+  void go_on();
+  void take_waiting();
+  void await_agents();
+  void start_waited_enough();
+  [[nodiscard]] bool all_needed_are_in() const;
+  void begin_turn();
+  void watch_flag();
+  void flag_due();
+  [[nodiscard]] std::shared_ptr<Session> session_of(Seat seat) const;
+  [[nodiscard]] Side side_of(Seat seat, const Asker& asker) const;
+  [[nodiscard]] storage::Micros lag_of(Seat seat) const;
+  void push(Seat seat, const Notification& notification) const;
+  [[nodiscard]] protocol::GameSnapshot<Outgoing> snapshot_for(Seat seat) const;
+
+  match::Game game_;
+  GameCard card_;
+  GameServices& services_;
+  Start start_;
+  bool awaiting_agents_ = true;  // before the first turn of this run of the server
+  bool halted_ = false;
+  Deadline arrival_deadline_;
+  Deadline flag_;
+  Deadline write_retry_;
+  Asker asker_;                        // of what is in flight
+  std::vector<Asker> joined_;          // who asked the same meanwhile
+  std::vector<GameRequest> waiting_;   // what cannot be answered while something is in flight
+  std::optional<match::Store> store_;  // being stored
+  std::uint32_t failures_ = 0;         // of storing, in a row
+};
+
+// What a stored turn answers to a request that came again; also for games long over.
+void answer_from_row(const storage::TurnRecord& row, const Asker& asker, Seat seat,
+                     const std::variant<protocol::Shot, protocol::Decide>& what);
+
+}  // namespace poolhall::net
