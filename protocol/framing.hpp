@@ -44,8 +44,9 @@ class LineSplitter {
   [[nodiscard]] Step grow(std::string_view tail);
 
   std::size_t limit_;
-  std::string pending_;    // of a line that has not ended; at most limit_ + 1 bytes ("\r")
-  bool skipping_ = false;  // inside a line that was too long
+  std::string pending_;            // of a line that has not ended; at most limit_ + 1 bytes ("\r")
+  bool skipping_ = false;          // inside a line that was too long
+  bool returned_pending_ = false;  // the last line given out stands in pending_
 };
 
 }  // namespace poolhall::protocol

@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -53,6 +54,11 @@ struct Hex256 {
 
   friend bool operator==(const Hex256&, const Hex256&) = default;
 };
+
+// 1..limits.name_length characters of A-Z a-z 0-9 . _ -
+[[nodiscard]] bool is_agent_name(std::string_view text, const Limits& limits);
+// The names of noise levels that may be asked for: none, low, olympiad, high, variable.
+[[nodiscard]] bool is_noise_name(std::string_view text);
 
 // ---- What agents ask ----
 
@@ -191,6 +197,7 @@ enum class Method : std::uint8_t {
 
 enum class GameStatus : std::uint8_t { running, over };
 [[nodiscard]] std::string_view name(GameStatus status);
+[[nodiscard]] std::optional<GameStatus> game_status(std::string_view name);
 
 // A game of the agent that is unfinished or whose end it has not acknowledged.
 struct GameListing {
@@ -214,7 +221,9 @@ struct LegalDecisions {
   std::vector<rules::Decision> decisions;
 };
 struct LegalBalls {
-  std::vector<rules::BallId> balls;  // that may be called
+  std::vector<rules::BallId> balls;        // that may be called
+  std::vector<rules::BallId> first_balls;  // that the cue ball may strike first
+  std::vector<rules::Call::Kind> calls;    // kinds of calls that may be made; `none`: no call
 };
 using Legal = std::variant<LegalBalls, LegalDecisions>;
 
@@ -427,6 +436,7 @@ struct TournamentListReply {
 
 enum class Membership : std::uint8_t { joined, left };
 [[nodiscard]] std::string_view name(Membership membership);
+[[nodiscard]] std::optional<Membership> membership(std::string_view name);
 
 // To `tournament.join` and `tournament.leave`.
 struct TournamentReply {
@@ -437,6 +447,7 @@ struct TournamentReply {
 // To `challenge`, `challenge.accept` and `challenge.decline`.
 enum class ChallengeStatus : std::uint8_t { offered, accepted, declined };
 [[nodiscard]] std::string_view name(ChallengeStatus status);
+[[nodiscard]] std::optional<ChallengeStatus> challenge_status(std::string_view name);
 struct ChallengeReply {
   ChallengeId challenge{};
   ChallengeStatus status = ChallengeStatus::offered;

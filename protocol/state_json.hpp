@@ -39,7 +39,7 @@ struct RulingReport {
   std::vector<rules::PocketedBall> pocketed;
   std::vector<rules::BallId> driven_off;
   std::optional<rules::BallId> first_contact{};
-  std::vector<std::string> notes;
+  std::vector<rules::Finding> notes;
   NextTurn next;
 };
 

@@ -3,7 +3,8 @@
 // An executed shot is authoritative in the wire's units: noise is added there, so that whoever
 // simulates the executed parameters of a stored shot gets the same bits.
 //
-//   ExecutedShot executed = executed_shot(intended, noise, deviates, scene);
+//   ExecutedShot executed =
+//       executed_shot(intended, noise, deviates, balls, table, materials);
 //   physics::CueShot<double> strike = to_physics(executed.params);
 #pragma once
 
@@ -15,15 +16,8 @@
 
 namespace poolhall::protocol {
 
-struct ShotParams {
-  double a = 0;      // mm, offset of the contact point to the left as the player sees it
-  double b = 0;      // mm, upwards
-  double theta = 0;  // degrees, elevation of the cue
-  double phi = 0;    // degrees, heading, counter-clockwise from +x
-  double v = 0;      // m/s, of the cue
-
-  friend bool operator==(const ShotParams&, const ShotParams&) = default;
-};
+// a, b in mm, theta, phi in degrees, v in m/s.
+using ShotParams = physics::ShotParameters<double>;
 
 // Standard deviations, in the same units.
 struct NoiseParams {
@@ -37,8 +31,6 @@ struct NoiseParams {
 };
 
 [[nodiscard]] physics::CueShot<double> to_physics(const ShotParams& params);
-// Rounds: to_physics of the result may differ from `shot` in the last bit.
-[[nodiscard]] ShotParams to_wire(const physics::CueShot<double>& shot);
 
 // none, low, olympiad, high.
 [[nodiscard]] std::optional<NoiseParams> noise_preset(std::string_view name);
