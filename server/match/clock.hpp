@@ -104,4 +104,10 @@ class GameClock {
   std::optional<Turn> turn_{};
 };
 
+// The balance after a turn of `seat` that took that time: charged at most what there was and at
+// most the cap; the increment unless nothing is left.
+[[nodiscard]] GameClock::Balance after_turn(const ClockSettings& settings,
+                                            GameClock::Balance balance, Seat seat,
+                                            const TurnTime& time);
+
 }  // namespace poolhall::match
