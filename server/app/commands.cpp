@@ -3,8 +3,7 @@
 namespace poolhall::app {
 
 void add_commands(CLI::App& app, int& exit_code) {
-  static_cast<void>(app);
-  static_cast<void>(exit_code);
+  add_bot_command(app, exit_code);
 }
 
 }  // namespace poolhall::app

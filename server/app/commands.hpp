@@ -10,4 +10,6 @@ namespace poolhall::app {
 
 void add_commands(CLI::App& app, int& exit_code);
 
+void add_bot_command(CLI::App& app, int& exit_code);
+
 }  // namespace poolhall::app
