@@ -86,6 +86,15 @@ template <class Real>
   return speed < forever<Real>() * deceleration ? Real(speed / deceleration) : forever<Real>();
 }
 
+// `size` against the direction of v, whose length is `speed`.
+template <class Real>
+[[nodiscard]] Vec2<Real> against(const Vec2<Real>& v, const Real& speed, const Real& size) {
+  if (size < forever<Real>() * speed) {
+    return (-size / speed) * v;
+  }
+  return {-size * (v.x / speed), -size * (v.y / speed)};
+}
+
 // The motion that begins with `ball` at `start`.
 template <class Real>
 [[nodiscard]] Segment<Real> segment(const Ball<Real>& ball, const Instant<Real>& start,
@@ -105,8 +114,8 @@ template <class Real>
     s.duration = time_until(Real(Real(2) * speed), Real(Real(7) * c.slide_acceleration));  // (13)
   } else if (s.state == MotionState::rolling) {
     const Real speed = length(s.velocity);
-    s.acceleration = (-c.roll_acceleration / speed) * s.velocity;  // (15)
-    s.duration = time_until(speed, c.roll_acceleration);           // (17)
+    s.acceleration = against(s.velocity, speed, c.roll_acceleration);  // (15)
+    s.duration = time_until(speed, c.roll_acceleration);               // (17)
   } else if (s.state == MotionState::spinning) {
     s.duration = time_until(Real(abs(s.angular_velocity.z)), c.spin_deceleration);  // (10)
   }
