@@ -110,7 +110,7 @@ template <class Real>
   if (s.state == MotionState::sliding) {
     s.slip = cloth_slip(s.velocity, s.angular_velocity, c.radius);
     const Real speed = length(s.slip);
-    s.acceleration = (-c.slide_acceleration / speed) * s.slip;                             // (8)
+    s.acceleration = against(s.slip, speed, c.slide_acceleration);                         // (8)
     s.duration = time_until(Real(Real(2) * speed), Real(Real(7) * c.slide_acceleration));  // (13)
   } else if (s.state == MotionState::rolling) {
     const Real speed = length(s.velocity);
