@@ -62,7 +62,7 @@ struct GameOutcome {
   std::uint32_t breaker = 0;              // index into MatchOrder::agents
   std::optional<std::uint32_t> winner{};  // index into MatchOrder::agents; unset: drawn
   rules::EndReason reason = rules::EndReason::conceded;
-  std::uint32_t shots = 0;
+  std::uint32_t turns = 0;  // stored ones: shots, decisions, lost turns, the end
 };
 
 struct MatchOutcome {
