@@ -30,10 +30,10 @@ namespace poolhall::client {
 struct GameInfo {
   std::string game;                       // the server's id
   rules::Seat seat = rules::Seat::first;  // this player's
-  std::string opponent;
+  std::string opponent{};
   rules::RuleSet rules = rules::RuleSet::eight_ball;
-  physics::Table table;
-  physics::Materials materials;
+  physics::Table table{};
+  physics::Materials materials{};
   std::optional<protocol::NoiseParams> noise{};  // unset: the tournament does not tell
 };
 
