@@ -48,7 +48,10 @@ void write_call(JsonWriter& out, const rules::Call& call);
 [[nodiscard]] rules::GameState read_state(const JsonNode& node);
 [[nodiscard]] RulingReport read_ruling(const JsonNode& node);
 [[nodiscard]] physics::EventLog<double> read_events(const JsonNode& node);
-[[nodiscard]] physics::Table read_table(const JsonNode& node);
-[[nodiscard]] physics::Materials read_materials(const JsonNode& node);
+
+// Messages may carry members that this version does not know; files may not.
+enum class UnknownKeys : std::uint8_t { ignored, refused };
+[[nodiscard]] physics::Table read_table(const JsonNode& node, UnknownKeys unknown);
+[[nodiscard]] physics::Materials read_materials(const JsonNode& node, UnknownKeys unknown);
 
 }  // namespace poolhall::protocol

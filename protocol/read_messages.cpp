@@ -63,8 +63,8 @@ GameTerms<Received> read_terms(const JsonNode& node) {
   terms.seat = read_seat(node.at("seat"));
   terms.opponent = node.at("opponent").string();
   terms.rules = read_rules(node.at("rules"));
-  terms.table = read_table(node.at("table"));
-  terms.physics = read_materials(node.at("physics"));
+  terms.table = read_table(node.at("table"), UnknownKeys::ignored);
+  terms.physics = read_materials(node.at("physics"), UnknownKeys::ignored);
   if (!node.at("noise").is_string("hidden")) {
     terms.noise = read_noise(node.at("noise"));
   }

@@ -2,7 +2,7 @@
 //
 //   Expected<SceneFile> file = decode_scene(text);
 //   physics::Expected<physics::Simulation<double>> done =
-//       physics::simulate(scene_of<double>(*file), file->options);
+//       physics::simulate(scene_of(*file), file->options);
 //   std::string out = encode_simulation(*done);
 #pragma once
 
@@ -34,7 +34,34 @@ struct SceneFile {
 // physics::check_scene's answer.
 [[nodiscard]] Expected<SceneFile> decode_scene(std::string_view text);
 
-// The scene in SI, in double.
-[[nodiscard]] physics::Scene<double> scene_of(const SceneFile& file);
+// The scene in SI. Its numbers are the file's doubles in every precision, so that two precisions
+// simulate the same scene; only the shot's directions are computed in the precision asked for.
+template <class Real = double>
+[[nodiscard]] physics::Scene<Real> scene_of(const SceneFile& file) {
+  physics::Scene<Real> scene{file.table, file.materials, {}, {}};
+  scene.balls.count = file.balls.count;
+  for (std::size_t i = 0; i < file.balls.count; ++i) {
+    const physics::Ball<double>& ball = file.balls[i];
+    const auto& w = ball.angular_velocity;
+    scene.balls[i] = {.id = ball.id,
+                      .state = ball.state,
+                      .position = {Real(ball.position.x), Real(ball.position.y)},
+                      .velocity = {Real(ball.velocity.x), Real(ball.velocity.y)},
+                      .angular_velocity = {Real(w.x), Real(w.y), Real(w.z)},
+                      .pocket = ball.pocket};
+  }
+  if (file.shot) {
+    scene.shot = physics::cue_shot(physics::ShotParameters<Real>{
+        Real(file.shot->a), Real(file.shot->b), Real(file.shot->theta), Real(file.shot->phi),
+        Real(file.shot->v)});
+  }
+  return scene;
+}
+
+// physics::check_scene's answer as an error of the file.
+[[nodiscard]] Error scene_error(const physics::Error& error);
+
+// {"events", "final", "duration", "energy", "stats"}, one line without its end.
+[[nodiscard]] std::string encode_simulation(const physics::Simulation<double>& simulation);
 
 }  // namespace poolhall::protocol

@@ -1,5 +1,7 @@
 #include "protocol/units.hpp"
 
+#include "physics/noise_presets.hpp"
+
 namespace poolhall::protocol {
 
 physics::CueShot<double> to_physics(const ShotParams& params) {
@@ -7,19 +9,11 @@ physics::CueShot<double> to_physics(const ShotParams& params) {
 }
 
 std::optional<NoiseParams> noise_preset(std::string_view name) {
-  // The Computer Olympiad's standard deviations (server.md, Noise).
-  constexpr NoiseParams olympiad{.a = 0.5, .b = 0.5, .theta = 0.1, .phi = 0.125, .v = 0.075};
-  if (name == "none") {
-    return NoiseParams{};
-  }
-  if (name == "low") {
-    return scaled(olympiad, 0.5);
-  }
-  if (name == "olympiad") {
-    return olympiad;
-  }
-  if (name == "high") {
-    return scaled(olympiad, 5);
+  for (const physics::NoisePreset& preset : physics::noise_presets()) {
+    if (preset.name == name) {
+      const ShotParams& d = preset.deviations;
+      return NoiseParams{d.a, d.b, d.theta, d.phi, d.v};
+    }
   }
   return std::nullopt;
 }
