@@ -1,0 +1,188 @@
+#include "server/tournament/standings.hpp"
+
+#include <algorithm>
+#include <array>
+#include <iterator>
+#include <utility>
+
+namespace poolhall::tournament {
+namespace {
+
+constexpr std::array<std::pair<TieBreak, std::string_view>, 3> tie_break_names{{
+    {TieBreak::direct_encounter, "direct_encounter"},
+    {TieBreak::sonneborn_berger, "sonneborn_berger"},
+    {TieBreak::wins, "wins"},
+}};
+
+using Rows = std::vector<StandingsRow>;
+
+void count(const PlayedGame& game, EntryId entry, StandingsRow& row) {
+  row.points += score_of(game, entry);
+  row.wins += game.winner == entry ? 1 : 0;
+  row.draws += game.winner ? 0 : 1;
+  row.losses += game.winner && game.winner != entry ? 1 : 0;
+}
+
+Rows counted(std::size_t entries, const std::vector<PlayedGame>& games) {
+  Rows rows(entries);
+  for (std::size_t i = 0; i < entries; ++i) {
+    rows[i].entry = entry_id(i);
+  }
+  for (const PlayedGame& game : games) {
+    count(game, game.breaker, rows[index(game.breaker)]);
+    count(game, game.other, rows[index(game.other)]);
+  }
+  return rows;
+}
+
+// Sonneborn-Berger of each entry.
+std::vector<double> sonneborn_berger(const Rows& rows, const std::vector<PlayedGame>& games) {
+  std::vector<double> sums(rows.size(), 0);
+  for (const PlayedGame& game : games) {
+    const std::size_t breaker = index(game.breaker);
+    const std::size_t other = index(game.other);
+    sums[breaker] += score_of(game, game.breaker) * rows[other].points;
+    sums[other] += score_of(game, game.other) * rows[breaker].points;
+  }
+  return sums;
+}
+
+// Orders entries by splitting groups of tied ones by one criterion after the other.
+class Ranking {
+ public:
+  Ranking(Rows rows, const std::vector<PlayedGame>& games, const std::vector<TieBreak>& tie_breaks)
+      : rows_(std::move(rows)),
+        games_(games),
+        tie_breaks_(tie_breaks),
+        sonneborn_berger_(sonneborn_berger(rows_, games)) {
+    for (StandingsRow& row : rows_) {
+      row.tie_breaks.assign(tie_breaks_.size(), 0);
+    }
+  }
+
+  [[nodiscard]] Rows ranked() {
+    std::vector<std::size_t> all(rows_.size());
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      all[i] = i;
+    }
+    split(
+        all, [&](std::size_t i) { return rows_[i].points; },
+        [&](const std::vector<std::size_t>& tied) { part(tied, 0); });
+    return std::move(ordered_);
+  }
+
+ private:
+  // Hands on the members of `group` in parts of equal value, the highest first.
+  template <class Value, class Next>
+  static void split(std::vector<std::size_t> group, Value value, Next next) {
+    std::stable_sort(group.begin(), group.end(),
+                     [&](std::size_t a, std::size_t b) { return value(a) > value(b); });
+    for (auto first = group.begin(); first != group.end();) {
+      const auto last = std::find_if(first, group.end(),
+                                     [&](std::size_t i) { return value(i) != value(*first); });
+      next(std::vector<std::size_t>(first, last));
+      first = last;
+    }
+  }
+
+  void part(const std::vector<std::size_t>& tied, std::size_t criterion) {
+    if (criterion == tie_breaks_.size()) {
+      place(tied);
+      return;
+    }
+    const std::vector<double> values = values_of(tied, tie_breaks_[criterion]);
+    for (const std::size_t i : tied) {
+      rows_[i].tie_breaks[criterion] = values[i];
+    }
+    split(
+        tied, [&](std::size_t i) { return values[i]; },
+        [&](const std::vector<std::size_t>& still_tied) { part(still_tied, criterion + 1); });
+  }
+
+  [[nodiscard]] std::vector<double> values_of(const std::vector<std::size_t>& tied,
+                                              TieBreak criterion) const {
+    std::vector<double> values(rows_.size(), 0);
+    switch (criterion) {
+      case TieBreak::direct_encounter:
+        return direct_encounter(tied);
+      case TieBreak::sonneborn_berger:
+        return sonneborn_berger_;
+      case TieBreak::wins:
+        for (const std::size_t i : tied) {
+          values[i] = rows_[i].wins;
+        }
+        break;
+    }
+    return values;
+  }
+
+  [[nodiscard]] std::vector<double> direct_encounter(const std::vector<std::size_t>& tied) const {
+    std::vector<bool> inside(rows_.size(), false);
+    for (const std::size_t i : tied) {
+      inside[i] = true;
+    }
+    std::vector<double> values(rows_.size(), 0);
+    for (const PlayedGame& game : games_) {
+      if (inside[index(game.breaker)] && inside[index(game.other)]) {
+        values[index(game.breaker)] += score_of(game, game.breaker);
+        values[index(game.other)] += score_of(game, game.other);
+      }
+    }
+    return values;
+  }
+
+  void place(const std::vector<std::size_t>& tied) {
+    const auto rank = static_cast<std::uint32_t>(ordered_.size() + 1);
+    for (const std::size_t i : tied) {
+      rows_[i].rank = rank;
+      ordered_.push_back(rows_[i]);
+    }
+  }
+
+  Rows rows_;
+  const std::vector<PlayedGame>& games_;
+  const std::vector<TieBreak>& tie_breaks_;
+  std::vector<double> sonneborn_berger_;
+  Rows ordered_;
+};
+
+std::vector<ratings::RatedGame> rated(const std::vector<PlayedGame>& games) {
+  std::vector<ratings::RatedGame> rated;
+  std::transform(games.begin(), games.end(), std::back_inserter(rated), [](const PlayedGame& game) {
+    return ratings::RatedGame{index(game.breaker), index(game.other), score_of(game, game.breaker),
+                              1};
+  });
+  return rated;
+}
+
+}  // namespace
+
+std::string_view name(TieBreak tie_break) {
+  return std::find_if(tie_break_names.begin(), tie_break_names.end(),
+                      [&](const auto& entry) { return entry.first == tie_break; })
+      ->second;
+}
+
+std::optional<TieBreak> tie_break(std::string_view name) {
+  const auto found = std::find_if(tie_break_names.begin(), tie_break_names.end(),
+                                  [&](const auto& entry) { return entry.second == name; });
+  return found == tie_break_names.end() ? std::nullopt : std::optional(found->first);
+}
+
+Standings standings(std::size_t entries, const std::vector<PlayedGame>& games,
+                    const std::vector<TieBreak>& tie_breaks) {
+  Standings table;
+  table.rows = Ranking(counted(entries, games), games, tie_breaks).ranked();
+  table.tie_breaks = tie_breaks;
+  const ratings::RatingTable ratings = ratings::bradley_terry(entries, rated(games));
+  for (StandingsRow& row : table.rows) {
+    row.rating = ratings.players[index(row.entry)];
+  }
+  table.break_advantage = ratings.break_advantage;
+  for (const PlayedGame& game : games) {
+    ++table.endings[game.reason];
+  }
+  return table;
+}
+
+}  // namespace poolhall::tournament
