@@ -30,7 +30,7 @@ GameClock::GameClock(const ClockSettings& settings, const Balance& balance)
 
 void GameClock::begin_turn(Seat seat, Instant now) {
   assert(!turn_);
-  turn_ = Turn{.seat = seat, .since = now, .time = {}};
+  turn_ = Turn{.seat = seat, .since = now, .began = now, .time = {}};
 }
 
 // What may still be charged in this turn before it is lost.
@@ -61,13 +61,23 @@ ClockVerdict GameClock::stop(Instant now, Micros lag) {
 
 void GameClock::resume(Instant now) {
   assert(turn_ && !turn_->since);
-  turn_->since = now;
+  // A request may have been read before this stretch began, and be refused only now.
+  turn_->began = std::max(turn_->began, now);
+  turn_->since = turn_->began;
 }
 
 TurnTime GameClock::finish_turn() {
   assert(turn_ && !turn_->since);
   const TurnTime time = turn_->time;
   balance_ = after_turn(settings_, balance_, turn_->seat, time);
+  turn_.reset();
+  return time;
+}
+
+TurnTime GameClock::abandon_turn() {
+  assert(turn_ && !turn_->since);
+  const TurnTime time = turn_->time;
+  balance_ = after_charge(settings_, balance_, turn_->seat, time);
   turn_.reset();
   return time;
 }
@@ -95,17 +105,24 @@ Micros GameClock::left(Seat seat, Instant now) const {
   return std::max(Micros{0}, before - turn_so_far(now).charged());
 }
 
-GameClock::Balance after_turn(const ClockSettings& settings, GameClock::Balance balance, Seat seat,
-                              const TurnTime& time) {
+GameClock::Balance after_charge(const ClockSettings& settings, GameClock::Balance balance,
+                                Seat seat, const TurnTime& time) {
   Micros& left = balance.left[index(seat)];
   Micros charged = std::min(time.charged(), left);
   if (settings.shot_cap)
     charged = std::min(charged, *settings.shot_cap);
   left -= charged;
-  if (left > Micros{0})
-    left += settings.increment;
   balance.lag_left[index(seat)] -= time.forgiven;
   return balance;
+}
+
+GameClock::Balance after_turn(const ClockSettings& settings, GameClock::Balance balance, Seat seat,
+                              const TurnTime& time) {
+  GameClock::Balance after = after_charge(settings, balance, seat, time);
+  Micros& left = after.left[index(seat)];
+  if (left > Micros{0})
+    left += settings.increment;
+  return after;
 }
 
 }  // namespace poolhall::match

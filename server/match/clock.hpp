@@ -72,9 +72,11 @@ class GameClock {
   [[nodiscard]] ClockVerdict stop(Instant now, Micros lag);
   // The clock must be stopped in a turn.
   void resume(Instant now);
-  // Ends the turn, whose clock must be stopped. After `game_time_over` nothing is left and there
-  // is no increment.
+  // Ends the turn, whose clock must be stopped, and adds the increment. After `game_time_over`
+  // nothing is left and there is no increment.
   TurnTime finish_turn();
+  // Ends the turn with the game: charged, no increment.
+  TurnTime abandon_turn();
 
   // When the running clock will have come to its end, if that lag is forgiven; unset while it
   // stands. At that instant stop() gives no in_time.
@@ -93,6 +95,7 @@ class GameClock {
   struct Turn {
     Seat seat = Seat::first;
     std::optional<Instant> since{};  // unset: stopped
+    Instant began{};                 // of this stretch or the last: time does not run backwards
     TurnTime time;
   };
 
@@ -104,8 +107,12 @@ class GameClock {
   std::optional<Turn> turn_{};
 };
 
-// The balance after a turn of `seat` that took that time: charged at most what there was and at
-// most the cap; the increment unless nothing is left.
+// The balance when a turn of `seat` has taken that time: charged at most what there was and at most
+// the cap.
+[[nodiscard]] GameClock::Balance after_charge(const ClockSettings& settings,
+                                              GameClock::Balance balance, Seat seat,
+                                              const TurnTime& time);
+// Likewise, with the increment unless nothing is left.
 [[nodiscard]] GameClock::Balance after_turn(const ClockSettings& settings,
                                             GameClock::Balance balance, Seat seat,
                                             const TurnTime& time);

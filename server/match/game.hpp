@@ -27,34 +27,21 @@
 #include "protocol/errors.hpp"
 #include "protocol/messages.hpp"
 #include "server/match/clock.hpp"
-#include "server/match/fair_noise.hpp"
+#include "server/match/game_rows.hpp"
 #include "server/match/play_shot.hpp"
 #include "server/storage/database.hpp"
 
 namespace poolhall::match {
-
-// A game's row before its first turn, noise, commitment, rack and seal included; or which of the
-// terms does not exist.
-struct GameOrder {
-  protocol::GameId id{};
-  protocol::MatchId match{};
-  std::uint32_t number = 0;
-  std::uint32_t attempt = 0;
-  std::array<storage::AgentId, 2> agents{};  // by seat
-  storage::TermsRecord terms;
-  Seat breaker = Seat::first;
-  std::uint64_t rack_seed = 0;
-  GameKey key{};
-  storage::UnixMicros created{};
-};
-[[nodiscard]] tl::expected<storage::GameRecord, std::string> new_game_record(
-    const GameOrder& order);
 
 // When a request's complete line was read, and the lag of its connection.
 struct Arrival {
   Instant at{};
   Micros lag{0};
   storage::UnixMicros date{};
+  // When the answer is given: from then on a clock runs again. Unset: `at`.
+  std::optional<Instant> now{};
+
+  [[nodiscard]] Instant answered() const { return now.value_or(at); }
 };
 
 // Answers to a request.
@@ -86,14 +73,6 @@ struct Later {};
 struct Done {};
 
 using Answer = std::variant<Play, Store, Refuse, Past, Join, Later, Done>;
-
-// Compares a request with the row of its turn: nothing if it is the same request with the same
-// content, so that the row is its answer; else conflicting_shot or stale_turn.
-[[nodiscard]] std::optional<protocol::Error> repeated_shot(const storage::TurnRecord& row, Seat by,
-                                                           const protocol::Shot& shot);
-[[nodiscard]] std::optional<protocol::Error> repeated_decision(const storage::TurnRecord& row,
-                                                               Seat by,
-                                                               const protocol::Decide& decide);
 
 enum class Phase : std::uint8_t {
   due,       // begin_turn is awaited, no clock runs
@@ -149,26 +128,34 @@ class Game {
  private:
   Game() = default;
 
-  [[nodiscard]] std::optional<Answer> gate(Seat by, std::uint32_t turn) const;
+  // What is being played or stored.
+  struct InFlight {
+    storage::TurnRecord turn;
+    std::optional<rules::GameState> next{};  // once it is being stored
+    std::optional<protocol::Shot> shot{};
+    std::optional<protocol::Decide> decide{};
+  };
+
+  // The answer to who may not act in this turn, or not now.
+  [[nodiscard]] std::optional<Answer> turned_away(Seat by, std::uint32_t turn) const;
+  // The answer to a shot or decision that meets one in flight.
+  [[nodiscard]] Answer meets(const protocol::Shot& shot) const;
+  [[nodiscard]] Answer meets(const protocol::Decide& decide) const;
+  // Stops the running clock; the answer if the time was over.
   [[nodiscard]] std::optional<Answer> stop_clock(const Arrival& arrival);
-  [[nodiscard]] storage::TurnRecord row(storage::TurnAction action, Seat seat,
-                                        storage::UnixMicros date) const;
-  [[nodiscard]] Answer refuse(const rules::Refusal& refusal, Instant now, storage::UnixMicros date);
+  [[nodiscard]] protocol::Error error(protocol::ErrorCode code, std::string field,
+                                      std::string reason) const;
+  [[nodiscard]] storage::TurnRecord row(storage::TurnAction action, storage::UnixMicros date) const;
+  [[nodiscard]] storage::ClockPart clock_part(storage::TurnAction action) const;
+  [[nodiscard]] Answer refuse(protocol::Error error, Instant now, storage::UnixMicros date);
   [[nodiscard]] Answer lose_turn(rules::FoulCode code, storage::UnixMicros date,
                                  std::optional<protocol::Error> error);
   [[nodiscard]] Answer end(storage::TurnAction action, Seat seat, const rules::GameResult& result,
                            const Arrival& arrival);
+  // Completes the row and begins to wait for stored().
   [[nodiscard]] Answer store(storage::TurnRecord turn, rules::GameState next,
                              std::optional<protocol::Error> error);
-
-  struct InFlight {
-    storage::TurnRecord turn;  // of a job: without its outcome
-    rules::GameState next;
-    std::string next_json;
-    std::optional<protocol::Shot> shot;  // being played or stored
-    std::optional<protocol::Decide> decide;
-    GameClock clock_before{ClockSettings{}};
-  };
+  [[nodiscard]] Answer being_stored(InFlight what, std::optional<protocol::Error> error);
 
   storage::GameRecord record_;
   std::shared_ptr<const Board> board_;

@@ -14,6 +14,7 @@
 #include "physics/noise.hpp"
 #include "physics/simulator.hpp"
 #include "physics/table.hpp"
+#include "protocol/errors.hpp"
 #include "rules/game_state.hpp"
 #include "rules/referee.hpp"
 #include "server/storage/records.hpp"
@@ -48,7 +49,8 @@ struct PlayedTurn {
 struct ServerFault {
   std::string reason;
 };
-using PlayOutcome = std::variant<PlayedTurn, rules::Refusal, ServerFault>;
+// An error is the player's: what was asked cannot be played.
+using PlayOutcome = std::variant<PlayedTurn, protocol::Error, ServerFault>;
 
 [[nodiscard]] PlayOutcome play(const ShotJob& job);
 

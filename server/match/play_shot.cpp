@@ -1,0 +1,82 @@
+#include "server/match/play_shot.hpp"
+
+#include <optional>
+#include <utility>
+
+#include "protocol/events_json.hpp"
+#include "protocol/state_json.hpp"
+#include "server/match/chain.hpp"
+
+namespace poolhall::match {
+namespace {
+
+// Where the request has what the referee and the simulator were given.
+constexpr std::string_view request_prefix = "/params";
+constexpr std::string_view stroke_prefix = "/params/params";
+
+PlayOutcome fault(const std::string& what, const std::string& why) {
+  return ServerFault{what + ": " + why};
+}
+
+PlayOutcome judged(const ShotJob& job, const rules::GameState& ready,
+                   const protocol::ExecutedShot& executed,
+                   const physics::EventLog<double>& events) {
+  const Board& board = *job.board;
+  auto ruling = rules::judge(ready, job.row.shot->call, events, board.table, board.materials);
+  if (!ruling)
+    return fault("the referee refused a simulated shot", ruling.error().reason);
+  PlayedTurn played{.record = job.row, .next = std::move(ruling->next)};
+  storage::TurnRecord& row = played.record;
+  row.shot->executed = executed.params;
+  row.shot->moved = executed.moved;
+  row.shot->events = protocol::encode_events(events, protocol::EventDetail::full);
+  ruling->next = played.next;
+  row.ruling = protocol::encode_ruling(*ruling);
+  row.state_after = protocol::encode_state(played.next);
+  row.result = played.next.result;
+  row.checksum = chained(job.previous, row);
+  return played;
+}
+
+}  // namespace
+
+std::shared_ptr<const Board> preset_board(const std::string& table, const std::string& materials) {
+  const auto known_table = physics::preset_table(table);
+  const auto known_materials = physics::preset_materials(materials);
+  if (!known_table || !known_materials)
+    return nullptr;
+  return std::make_shared<const Board>(Board{*known_table, *known_materials});
+}
+
+physics::Scene<double> scene_of(const rules::GameState& ready, const Board& board,
+                                const protocol::ShotParams& executed) {
+  return {.table = board.table,
+          .materials = board.materials,
+          .balls = rules::balls_on_table(ready),
+          .shot = protocol::to_physics(executed)};
+}
+
+PlayOutcome play(const ShotJob& job) {
+  const Board& board = *job.board;
+  const storage::ShotPart& shot = *job.row.shot;
+  const auto ready =
+      rules::prepare_shot(job.state, shot.call, shot.cue_ball, board.table, board.materials);
+  if (!ready)
+    return protocol::error_from(ready.error(), request_prefix);
+  const physics::BallSet<double> balls = rules::balls_on_table(*ready);
+  if (const auto possible = physics::check_shot(protocol::to_physics(shot.intended), balls,
+                                                board.table, board.materials);
+      !possible)
+    return protocol::error_from(possible.error(), stroke_prefix);
+
+  const protocol::ExecutedShot executed = protocol::executed_shot(
+      shot.intended, job.noise, job.deviates, balls, board.table, board.materials);
+  const auto simulation = physics::simulate(scene_of(*ready, board, executed.params), {});
+  if (!simulation)
+    return fault("the simulator refused a shot", simulation.error().reason);
+  if (simulation->ending != physics::Ending::at_rest)
+    return fault("the simulator did not come to an end", std::string(name(simulation->ending)));
+  return judged(job, *ready, executed, simulation->events);
+}
+
+}  // namespace poolhall::match
