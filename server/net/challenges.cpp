@@ -1,0 +1,306 @@
+#include "server/net/challenges.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+namespace poolhall::net {
+
+using protocol::ChallengeId;
+using protocol::Error;
+using protocol::ErrorCode;
+using std::chrono::steady_clock;
+
+namespace {
+
+constexpr std::string_view house_prefix = "house:";
+// How long the answer to a challenge is remembered for who asks again.
+constexpr std::chrono::minutes memory{10};
+constexpr std::chrono::hours longest_clock{24};
+constexpr std::size_t offers_bound = 64;  // of one agent that wait for an answer
+
+std::string request_key(storage::AgentId from, const protocol::ShotId& id) {
+  return fmt::format("{}:{}", storage::number(from), id.json);
+}
+
+}  // namespace
+
+Challenges::Challenges(GameServices& services, Matches& matches, Outside outside)
+    : services_(services),
+      matches_(matches),
+      outside_(std::move(outside)),
+      next_id_(storage::number(storage::unix_now()) / 1'000) {}
+
+void Challenges::challenge(const Asker& asker, storage::AgentId from,
+                           const protocol::Challenge& request) {
+  if (request.challenge_id && repeats(asker, from, request)) {
+    return;
+  }
+  const auto terms = terms_of_request(request);
+  if (!terms) {
+    asker.refuse(terms.error());
+    return;
+  }
+  const auto opponent = opponent_of(from, request.opponent);
+  if (!opponent) {
+    asker.refuse(opponent.error());
+    return;
+  }
+  const ChallengeId id{next_id_++};
+  Entry& entry = entries_[id];
+  entry.request = request;
+  entry.from = from;
+  entry.to = *opponent;
+  entry.terms = *terms;
+  if (request.challenge_id) {
+    by_key_[{from, request.challenge_id->json}] = id;
+  }
+  if (request.opponent.starts_with(house_prefix)) {
+    begin(id, asker);
+  } else {
+    offer(id, entry, asker);
+  }
+}
+
+// The same challenge_id again: the same answer, or a conflict.
+bool Challenges::repeats(const Asker& asker, storage::AgentId from,
+                         const protocol::Challenge& request) {
+  const auto found = by_key_.find({from, request.challenge_id->json});
+  if (found == by_key_.end()) {
+    const auto before = restored_.find(request_key(from, *request.challenge_id));
+    if (before == restored_.end()) {
+      return false;
+    }
+    asker.reply(protocol::ChallengeReply{ChallengeId{0}, protocol::ChallengeStatus::accepted,
+                                         before->second});
+    return true;
+  }
+  Entry& entry = entries_.at(found->second);
+  if (!(entry.request == request)) {
+    asker.refuse({ErrorCode::conflicting_request, "/params/challenge_id",
+                  "the same challenge_id was sent with another content"});
+  } else if (entry.state == State::starting) {
+    entry.askers.push_back(asker);
+  } else {
+    reply(asker, found->second, entry);
+  }
+  return true;
+}
+
+protocol::Expected<storage::TermsRecord> Challenges::terms_of_request(
+    const protocol::Challenge& request) const {
+  storage::TermsRecord terms;
+  terms.rules = request.rules.value_or(terms.rules);
+  terms.noise = request.noise.value_or(terms.noise);
+  terms.max_refusals = services_.limits.max_refusals;
+  terms.lag_per_turn = services_.limits.lag_credit_per_turn;
+  terms.lag_per_game = services_.limits.lag_credit_per_game;
+  const auto clock = request.clock.value_or(clock_settings_of(terms));
+  const auto longest = std::chrono::milliseconds{longest_clock}.count();
+  const auto refused = [longest](std::string_view field, std::int64_t came, std::int64_t least) {
+    return tl::unexpected(Error{ErrorCode::invalid_params, fmt::format("/params/clock/{}", field),
+                                fmt::format("got {}, expected {} to {} ms", came, least, longest)});
+  };
+  if (clock.game_ms < 1 || clock.game_ms > longest) {
+    return refused("game_ms", clock.game_ms, 1);
+  }
+  if (clock.increment_ms < 0 || clock.increment_ms > longest) {
+    return refused("increment_ms", clock.increment_ms, 0);
+  }
+  if (clock.shot_ms && (*clock.shot_ms < 1 || *clock.shot_ms > longest)) {
+    return refused("shot_ms", *clock.shot_ms, 1);
+  }
+  terms.clock = std::chrono::milliseconds{clock.game_ms};
+  terms.increment = std::chrono::milliseconds{clock.increment_ms};
+  if (clock.shot_ms) {
+    terms.shot_cap = std::chrono::milliseconds{*clock.shot_ms};
+  }
+  return terms;
+}
+
+protocol::Expected<storage::AgentId> Challenges::opponent_of(storage::AgentId from,
+                                                             const std::string& name) const {
+  const auto unknown = [&](std::string_view expected) {
+    return tl::unexpected(Error{ErrorCode::unknown_agent, "/params/opponent",
+                                fmt::format("got \"{}\", expected {}", name, expected)});
+  };
+  if (name.starts_with(house_prefix)) {
+    const auto agent = outside_.house_agent(name.substr(house_prefix.size()));
+    if (!agent) {
+      return unknown("a bot of the house, such as \"house:greedy\"");
+    }
+    return *agent;
+  }
+  const Agent* agent = services_.book.named(name);
+  if (agent == nullptr || !agent->session.lock()) {
+    return unknown("the name of an agent that is here");
+  }
+  if (agent->id() == from) {
+    return unknown("another agent than yourself");
+  }
+  const auto waiting = std::count_if(entries_.begin(), entries_.end(), [&](const auto& entry) {
+    return entry.second.from == from && entry.second.state == State::offered;
+  });
+  if (static_cast<std::size_t>(waiting) >= offers_bound) {
+    return tl::unexpected(Error{ErrorCode::rate_limited, "",
+                                fmt::format("{} of your offers wait already", offers_bound)});
+  }
+  return agent->id();
+}
+
+void Challenges::offer(ChallengeId id, Entry& entry, const Asker& asker) {
+  entry.expiry = services_.deadlines.at(steady_clock::now() + services_.limits.challenge_expiry,
+                                        [this, id] { expire(id); });
+  reply(asker, id, entry);
+  push(entry.to, offer_of(id, entry));
+}
+
+protocol::ChallengeOffer Challenges::offer_of(ChallengeId id, const Entry& entry) const {
+  protocol::ChallengeOffer offer;
+  offer.challenge = id;
+  offer.from = services_.book.name_of(entry.from);
+  offer.rules = entry.terms.rules;
+  offer.noise = entry.terms.noise;
+  offer.clock = clock_settings_of(entry.terms);
+  offer.expires_ms = services_.time.ms(steady_clock::now() + services_.limits.challenge_expiry);
+  return offer;
+}
+
+Challenges::Entry* Challenges::addressed_to(const Asker& asker, storage::AgentId by,
+                                            ChallengeId id) {
+  const auto found = entries_.find(id);
+  if (found == entries_.end() || found->second.to != by) {
+    asker.refuse({ErrorCode::unknown_challenge, "/params/challenge",
+                  fmt::format("got {}, which is no offer to you", number(id))});
+    return nullptr;
+  }
+  return &found->second;
+}
+
+void Challenges::accept(const Asker& asker, storage::AgentId by, ChallengeId id) {
+  Entry* entry = addressed_to(asker, by, id);
+  if (entry == nullptr) {
+    return;
+  }
+  if (entry->state == State::offered) {
+    begin(id, asker);
+  } else if (entry->state == State::starting) {
+    entry->askers.push_back(asker);
+  } else if (entry->state == State::accepted) {
+    reply(asker, id, *entry);
+  } else {
+    asker.refuse({ErrorCode::conflicting_request, "/params/challenge",
+                  "the offer was declined or has expired"});
+  }
+}
+
+void Challenges::decline(const Asker& asker, storage::AgentId by, ChallengeId id) {
+  Entry* entry = addressed_to(asker, by, id);
+  if (entry == nullptr) {
+    return;
+  }
+  if (entry->state != State::offered && entry->state != State::declined) {
+    asker.refuse({ErrorCode::conflicting_request, "/params/challenge",
+                  "the offer was accepted or has expired"});
+    return;
+  }
+  const bool first_time = entry->state == State::offered;
+  entry->state = State::declined;
+  reply(asker, id, *entry);
+  if (first_time) {
+    push(entry->from, protocol::ChallengeOver{id, protocol::ChallengeOutcome::declined});
+    forget_later(id);
+  }
+}
+
+void Challenges::begin(ChallengeId id, const Asker& asker) {
+  Entry& entry = entries_.at(id);
+  entry.state = State::starting;
+  entry.askers.push_back(asker);
+  entry.expiry.cancel();
+  MatchPlan plan;
+  plan.agents = {entry.from, entry.to};
+  plan.terms = entry.terms;
+  plan.seed = random_seed();
+  if (entry.request.challenge_id) {
+    plan.request = request_key(entry.from, *entry.request.challenge_id);
+  }
+  matches_.start(plan,
+                 [this, id](const protocol::Expected<MatchId>& match) { started(id, match); });
+}
+
+void Challenges::started(ChallengeId id, const protocol::Expected<MatchId>& match) {
+  Entry& entry = entries_.at(id);
+  const auto askers = std::exchange(entry.askers, {});
+  if (!match) {
+    for (const Asker& asker : askers) {
+      asker.refuse(match.error());
+    }
+    if (entry.request.challenge_id) {
+      by_key_.erase({entry.from, entry.request.challenge_id->json});
+    }
+    entries_.erase(id);
+    return;
+  }
+  entry.state = State::accepted;
+  entry.match = *match;
+  for (const Asker& asker : askers) {
+    reply(asker, id, entry);
+  }
+  if (!entry.request.opponent.starts_with(house_prefix)) {
+    push(entry.from, protocol::ChallengeOver{id, protocol::ChallengeOutcome::accepted});
+  }
+  forget_later(id);
+}
+
+void Challenges::expire(ChallengeId id) {
+  Entry& entry = entries_.at(id);
+  entry.state = State::expired;
+  for (const storage::AgentId agent : {entry.from, entry.to}) {
+    push(agent, protocol::ChallengeOver{id, protocol::ChallengeOutcome::expired});
+  }
+  forget_later(id);
+}
+
+void Challenges::forget_later(ChallengeId id) {
+  entries_.at(id).expiry = services_.deadlines.at(steady_clock::now() + memory, [this, id] {
+    const Entry& entry = entries_.at(id);
+    if (entry.request.challenge_id) {
+      by_key_.erase({entry.from, entry.request.challenge_id->json});
+    }
+    entries_.erase(id);
+  });
+}
+
+void Challenges::agent_came(storage::AgentId agent) {
+  for (const auto& [id, entry] : entries_) {
+    if (entry.to == agent && entry.state == State::offered) {
+      push(agent, offer_of(id, entry));
+    }
+  }
+}
+
+void Challenges::restore(const storage::MatchRecord& match) {
+  if (match.request) {
+    restored_[*match.request] = match.id;
+  }
+}
+
+void Challenges::reply(const Asker& asker, ChallengeId id, const Entry& entry) const {
+  using Status = protocol::ChallengeStatus;
+  const Status status = entry.state == State::accepted  ? Status::accepted
+                        : entry.state == State::offered ? Status::offered
+                                                        : Status::declined;
+  asker.reply(protocol::ChallengeReply{id, status, entry.match});
+}
+
+void Challenges::push(storage::AgentId agent, const Notification& notification) const {
+  const Agent* known = services_.book.find(agent);
+  if (const auto session = known != nullptr ? known->session.lock() : nullptr) {
+    session->push(notification);
+  }
+}
+
+}  // namespace poolhall::net

@@ -1,0 +1,80 @@
+// Challenges: of the house at once, of another agent by offer and answer. Offers live in memory
+// only: they expire in a minute anyway.
+//
+//   challenges.challenge(asker, agent, request);
+//   challenges.accept(asker, agent, request.challenge);
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/net/house_bots.hpp"
+#include "server/net/matches.hpp"
+
+namespace poolhall::net {
+
+class Challenges {
+ public:
+  struct Outside {
+    // The house's agent to play a bot of that name, made known if need be; nothing if there is no
+    // such bot.
+    std::function<std::optional<storage::AgentId>(const std::string& bot)> house_agent;
+  };
+
+  Challenges(GameServices& services, Matches& matches, Outside outside);
+
+  void challenge(const Asker& asker, storage::AgentId from, const protocol::Challenge& request);
+  void accept(const Asker& asker, storage::AgentId by, protocol::ChallengeId challenge);
+  void decline(const Asker& asker, storage::AgentId by, protocol::ChallengeId challenge);
+  // This agent has a new session: offers that wait for its answer.
+  void agent_came(storage::AgentId agent);
+  // A match that was asked for before the server stopped.
+  void restore(const storage::MatchRecord& match);
+
+ private:
+  enum class State : std::uint8_t { offered, starting, accepted, declined, expired };
+  struct Entry {
+    protocol::Challenge request;
+    storage::AgentId from{};
+    storage::AgentId to{};
+    storage::TermsRecord terms;
+    State state = State::offered;
+    std::optional<MatchId> match{};
+    std::vector<Asker> askers;  // who wait for the match to be stored
+    Deadline expiry;            // of the offer, later of the entry
+  };
+  using Key = std::pair<storage::AgentId, std::string>;  // agent and challenge_id
+
+  [[nodiscard]] bool repeats(const Asker& asker, storage::AgentId from,
+                             const protocol::Challenge& request);
+  [[nodiscard]] protocol::Expected<storage::TermsRecord> terms_of_request(
+      const protocol::Challenge& request) const;
+  [[nodiscard]] protocol::Expected<storage::AgentId> opponent_of(storage::AgentId from,
+                                                                 const std::string& name) const;
+  [[nodiscard]] Entry* addressed_to(const Asker& asker, storage::AgentId by,
+                                    protocol::ChallengeId id);
+  void offer(protocol::ChallengeId id, Entry& entry, const Asker& asker);
+  void begin(protocol::ChallengeId id, const Asker& asker);
+  void started(protocol::ChallengeId id, const protocol::Expected<MatchId>& match);
+  void expire(protocol::ChallengeId id);
+  void forget_later(protocol::ChallengeId id);
+  void reply(const Asker& asker, protocol::ChallengeId id, const Entry& entry) const;
+  void push(storage::AgentId agent, const Notification& notification) const;
+  [[nodiscard]] protocol::ChallengeOffer offer_of(protocol::ChallengeId id,
+                                                  const Entry& entry) const;
+
+  GameServices& services_;
+  Matches& matches_;
+  Outside outside_;
+  // Ids of an earlier run of the server are not given again.
+  std::int64_t next_id_;
+  std::map<protocol::ChallengeId, Entry> entries_;
+  std::map<Key, protocol::ChallengeId> by_key_;
+  std::map<std::string, MatchId> restored_;  // by MatchRecord::request
+};
+
+}  // namespace poolhall::net

@@ -1,0 +1,330 @@
+#include "server/net/matches.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+namespace poolhall::net {
+
+using protocol::Error;
+using protocol::ErrorCode;
+
+namespace {
+
+constexpr std::chrono::milliseconds writer_retry{100};
+// A game that is void so often in a row will not become better.
+constexpr std::uint32_t attempts_bound = 5;
+
+template <class Id>
+Id take_next(Id& next) {
+  const Id taken = next;
+  next = Id{static_cast<std::int64_t>(next) + 1};
+  return taken;
+}
+
+// Racks of games played again are drawn anew.
+std::uint64_t rack_number(std::uint32_t number, std::uint32_t attempt, bool mirrored) {
+  const std::uint64_t rack = mirrored ? number / 2 : number;
+  return rack + (static_cast<std::uint64_t>(attempt) << 32U);
+}
+
+}  // namespace
+
+Matches::Matches(GameServices& services, storage::Counters& ids, Outside outside)
+    : services_(services), ids_(ids), outside_(std::move(outside)) {}
+
+void Matches::start(const MatchPlan& plan, Started started) {
+  LiveMatch match;
+  match.mirrored = plan.mirrored;
+  match.game_goes_on = true;
+  storage::MatchRecord& record = match.record;
+  record.id = take_next(ids_.match);
+  record.tournament = plan.tournament;
+  record.pairing = plan.pairing;
+  record.request = plan.request;
+  record.agents = plan.agents;
+  record.games = plan.games;
+  record.terms = plan.terms;
+  record.seed = plan.seed;
+  record.created = storage::unix_now();
+  const auto game = draw_game(match, 0);
+  if (!game) {
+    started(tl::unexpected(Error{ErrorCode::invalid_params, "/params", game.error()}));
+    return;
+  }
+  const MatchId id = record.id;
+  matches_.emplace(id, match);
+  const auto posted = services_.writer.post(
+      [record, game = *game](storage::Database& database) -> storage::Expected<void> {
+        auto added = database.add_match(record);
+        return added ? database.add_game(game) : added;
+      },
+      [this, id, game = *game, started](const storage::Expected<void>& stored) {
+        if (!stored) {
+          matches_.erase(id);
+          started(tl::unexpected(Error{ErrorCode::internal, "",
+                                       "the match cannot be stored: " + stored.error().reason}));
+          return;
+        }
+        started(id);
+        launch({game, {}, {}}, matches_.at(id).record, Start::fresh);
+      });
+  if (posted != storage::Posted::accepted) {
+    matches_.erase(id);
+    started(
+        tl::unexpected(Error{ErrorCode::paused, "", "the database takes nothing at the moment"}));
+  }
+}
+
+void Matches::restore(const storage::MatchRecord& record,
+                      const std::vector<storage::GameRecord>& games) {
+  LiveMatch match;
+  match.record = record;
+  std::copy_if(games.begin(), games.end(), std::back_inserter(match.games),
+               [](const storage::GameRecord& game) { return game.over; });
+  matches_.emplace(record.id, std::move(match));
+}
+
+tl::expected<void, std::string> Matches::resume(const storage::UnfinishedGame& unfinished) {
+  const auto found = matches_.find(unfinished.game.match);
+  if (found == matches_.end()) {
+    return tl::unexpected(
+        fmt::format("game {} belongs to no unfinished match", number(unfinished.game.id)));
+  }
+  found->second.game_goes_on = true;
+  launch(unfinished, found->second.record, Start::resume);
+  return {};
+}
+
+void Matches::go_on(MatchId match, bool mirrored) {
+  const auto found = matches_.find(match);
+  if (found == matches_.end()) {
+    return;
+  }
+  found->second.mirrored = mirrored;
+  if (!found->second.game_goes_on) {
+    begin_next(found->second);
+  }
+}
+
+std::optional<GameOutcome> Matches::outcome_of(const storage::MatchRecord& match,
+                                               const storage::GameRecord& game) {
+  if (!game.over || !game.result || game.result->reason == rules::EndReason::void_game) {
+    return std::nullopt;
+  }
+  const auto agent_in = [&](Seat seat) {
+    return game.agents[rules::index(seat)] == match.agents[0] ? 0U : 1U;
+  };
+  GameOutcome outcome;
+  outcome.game = game.id;
+  outcome.number = game.number;
+  outcome.breaker = agent_in(game.breaker);
+  if (game.result->winner) {
+    outcome.winner = agent_in(*game.result->winner);
+  }
+  outcome.reason = game.result->reason;
+  outcome.turns = game.turns;
+  return outcome;
+}
+
+std::vector<GameOutcome> Matches::outcomes(const LiveMatch& match) const {
+  std::vector<GameOutcome> scored;
+  for (const storage::GameRecord& game : match.games) {
+    if (const auto outcome = outcome_of(match.record, game)) {
+      scored.push_back(*outcome);
+    }
+  }
+  std::sort(scored.begin(), scored.end(),
+            [](const GameOutcome& a, const GameOutcome& b) { return a.number < b.number; });
+  return scored;
+}
+
+std::optional<std::uint32_t> Matches::next_number(const LiveMatch& match) const {
+  for (std::uint32_t number = 0; number < match.record.games; ++number) {
+    const auto attempts =
+        std::count_if(match.games.begin(), match.games.end(),
+                      [number](const storage::GameRecord& game) { return game.number == number; });
+    const bool scored =
+        std::any_of(match.games.begin(), match.games.end(), [&](const storage::GameRecord& game) {
+          return game.number == number && outcome_of(match.record, game);
+        });
+    if (!scored && attempts < attempts_bound) {
+      return number;
+    }
+  }
+  return std::nullopt;
+}
+
+tl::expected<storage::GameRecord, std::string> Matches::draw_game(const LiveMatch& match,
+                                                                  std::uint32_t number) {
+  match::GameOrder order;
+  order.match = match.record.id;
+  order.number = number;
+  order.attempt = static_cast<std::uint32_t>(
+      std::count_if(match.games.begin(), match.games.end(),
+                    [number](const storage::GameRecord& game) { return game.number == number; }));
+  // The breaker sits in the first seat, and the agents change seats from game to game.
+  order.agents = match.record.agents;
+  if (number % 2 == 1) {
+    std::swap(order.agents[0], order.agents[1]);
+  }
+  order.terms = match.record.terms;
+  order.breaker = Seat::first;
+  order.rack_seed =
+      match::rack_seed(match.record.seed, rack_number(number, order.attempt, match.mirrored));
+  order.key = match::draw_key();
+  order.created = storage::unix_now();
+  order.id = ids_.game;
+  auto record = match::new_game_record(order);
+  if (record) {
+    take_next(ids_.game);
+  }
+  return record;
+}
+
+void Matches::begin_next(LiveMatch& match) {
+  const auto number = next_number(match);
+  if (!number) {
+    finish(match);
+    return;
+  }
+  const auto game = draw_game(match, *number);
+  if (!game) {
+    spdlog::error("match {}: no game {}: {}", protocol::number(match.record.id), *number,
+                  game.error());
+    return;
+  }
+  match.game_goes_on = true;
+  post([game = *game](storage::Database& database) { return database.add_game(game); },
+       [this, id = match.record.id, game = *game] {
+         launch({game, {}, {}}, matches_.at(id).record, Start::fresh);
+       },
+       fmt::format("game {}", protocol::number(game->id)));
+}
+
+void Matches::launch(const storage::UnfinishedGame& unfinished, const storage::MatchRecord& match,
+                     Start start) {
+  auto game = match::Game::open(unfinished);
+  if (!game) {
+    spdlog::error("game {} cannot go on: {}", protocol::number(unfinished.game.id), game.error());
+    return;
+  }
+  const std::array<std::string, 2> names{services_.book.name_of(unfinished.game.agents[0]),
+                                         services_.book.name_of(unfinished.game.agents[1])};
+  const auto wire_id = match.tournament ? outside_.wire_id(*match.tournament) : std::nullopt;
+  const GameCard card = card_of(game->board(), names, wire_id);
+  spdlog::info("game {} of match {}: {} against {}{}", protocol::number(unfinished.game.id),
+               protocol::number(match.id), names[0], names[1],
+               start == Start::resume ? ", goes on" : "");
+  outside_.launch(std::make_shared<LiveGame>(std::move(*game), card, services_, start));
+}
+
+void Matches::game_over(const LiveGame& live) {
+  const storage::GameRecord game = live.record();
+  const auto found = matches_.find(game.match);
+  if (found == matches_.end()) {
+    return;
+  }
+  LiveMatch& match = found->second;
+  match.game_goes_on = false;
+  match.games.push_back(game);
+  if (const auto outcome = outcome_of(match.record, game)) {
+    outside_.on_game_over(match.record, *outcome);
+  }
+  begin_next(match);
+}
+
+void Matches::finish(LiveMatch& match) {
+  match.game_goes_on = true;  // nothing begins any more
+  const MatchId id = match.record.id;
+  post([id, when = storage::unix_now()](
+           storage::Database& database) { return database.finish_match(id, when); },
+       [this, id] {
+         const LiveMatch over = std::move(matches_.extract(id).mapped());
+         tell_over(over);
+         outside_.on_match_over(over.record, outcomes(over));
+       },
+       fmt::format("the end of match {}", protocol::number(id)));
+}
+
+void Matches::tell_over(const LiveMatch& match) {
+  std::array<double, 2> points{};
+  for (const GameOutcome& outcome : outcomes(match)) {
+    if (outcome.winner) {
+      points[*outcome.winner] += 1;
+    } else {
+      points[0] += 0.5;
+      points[1] += 0.5;
+    }
+  }
+  protocol::MatchOver over;
+  over.match = match.record.id;
+  if (match.record.tournament) {
+    over.tournament = outside_.wire_id(*match.record.tournament);
+  }
+  for (const storage::GameRecord& game : match.games) {
+    over.seeds.push_back(seeds_of(game));
+  }
+  for (const std::size_t own : {0U, 1U}) {
+    over.opponent = services_.book.name_of(match.record.agents[1 - own]);
+    over.own_points = points[own];
+    over.opponent_points = points[1 - own];
+    const Agent* agent = services_.book.find(match.record.agents[own]);
+    if (const auto session = agent != nullptr ? agent->session.lock() : nullptr) {
+      session->push(over);
+    }
+  }
+}
+
+// Goes on trying while the database takes nothing.
+void Matches::post(storage::Writer::Work work, std::function<void()> then, std::string what) {
+  const auto posted =
+      services_.writer.post(work, [then, what](const storage::Expected<void>& stored) {
+        if (stored) {
+          then();
+        } else {
+          spdlog::error("{} cannot be stored: {}", what, stored.error().reason);
+        }
+      });
+  if (posted == storage::Posted::full) {
+    auto timer = std::make_shared<boost::asio::steady_timer>(services_.io, writer_retry);
+    timer->async_wait([this, timer, work = std::move(work), then = std::move(then),
+                       what = std::move(what)](const boost::system::error_code& error) mutable {
+      if (!error) {
+        post(std::move(work), std::move(then), std::move(what));
+      }
+    });
+  }
+}
+
+std::optional<MatchId> Matches::find(const std::string& tournament, std::uint32_t pairing) const {
+  for (const auto& [id, match] : matches_) {
+    if (match.record.tournament == tournament && match.record.pairing == pairing) {
+      return id;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<MatchId> Matches::find_request(const std::string& request) const {
+  for (const auto& [id, match] : matches_) {
+    if (match.record.request == request) {
+      return id;
+    }
+  }
+  return std::nullopt;
+}
+
+std::vector<MatchId> Matches::challenges() const {
+  std::vector<MatchId> ids;
+  for (const auto& [id, match] : matches_) {
+    if (!match.record.tournament) {
+      ids.push_back(id);
+    }
+  }
+  return ids;
+}
+
+}  // namespace poolhall::net

@@ -1,0 +1,90 @@
+// Matches that go on: one game after the other, void ones again, until all are scored. Each game is
+// stored before anybody hears of it.
+//
+//   matches.start(plan, [](const tl::expected<MatchId, protocol::Error>& started) { ... });
+//   matches.game_over(live_game);
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "server/net/live_game.hpp"
+#include "server/net/match_host.hpp"
+
+namespace poolhall::net {
+
+struct MatchPlan {
+  std::array<storage::AgentId, 2> agents{};
+  std::uint32_t games = 1;
+  storage::TermsRecord terms;
+  std::uint64_t seed = 0;
+  std::optional<std::string> tournament{};
+  std::optional<std::uint32_t> pairing{};
+  std::optional<std::string> request{};  // what a challenge was asked with
+  bool mirrored = false;
+};
+
+class Matches {
+ public:
+  struct Outside {
+    std::function<void(std::shared_ptr<LiveGame>)> launch;
+    std::function<std::optional<protocol::TournamentId>(const std::string&)> wire_id;
+    std::function<void(const storage::MatchRecord&, const GameOutcome&)> on_game_over;
+    std::function<void(const storage::MatchRecord&, const std::vector<GameOutcome>&)> on_match_over;
+  };
+  using Started = std::function<void(const protocol::Expected<MatchId>&)>;
+
+  Matches(GameServices& services, storage::Counters& ids, Outside outside);
+
+  // `started` hears when match and first game are stored; then the game is launched.
+  void start(const MatchPlan& plan, Started started);
+  // A match that was going on when the server stopped. Its next game begins with go_on.
+  void restore(const storage::MatchRecord& record, const std::vector<storage::GameRecord>& games);
+  // Launches the game that was going on.
+  [[nodiscard]] tl::expected<void, std::string> resume(const storage::UnfinishedGame& unfinished);
+  // Starts the next game of a restored match, unless one goes on.
+  void go_on(MatchId match, bool mirrored);
+  void game_over(const LiveGame& game);
+
+  [[nodiscard]] std::optional<MatchId> find(const std::string& tournament,
+                                            std::uint32_t pairing) const;
+  [[nodiscard]] std::optional<MatchId> find_request(const std::string& request) const;
+  [[nodiscard]] std::size_t size() const { return matches_.size(); }
+  // Restored matches without a tournament: nobody else would start their next game.
+  [[nodiscard]] std::vector<MatchId> challenges() const;
+
+  // A scored game as tournaments count it; nothing if it is void or not over.
+  [[nodiscard]] static std::optional<GameOutcome> outcome_of(const storage::MatchRecord& match,
+                                                             const storage::GameRecord& game);
+
+ private:
+  struct LiveMatch {
+    storage::MatchRecord record;
+    bool mirrored = false;
+    bool game_goes_on = false;
+    std::vector<storage::GameRecord> games;  // that are over, void ones too
+  };
+
+  [[nodiscard]] std::vector<GameOutcome> outcomes(const LiveMatch& match) const;
+  [[nodiscard]] std::optional<std::uint32_t> next_number(const LiveMatch& match) const;
+  [[nodiscard]] tl::expected<storage::GameRecord, std::string> draw_game(const LiveMatch& match,
+                                                                         std::uint32_t number);
+  void begin_next(LiveMatch& match);
+  void finish(LiveMatch& match);
+  void tell_over(const LiveMatch& match);
+  void launch(const storage::UnfinishedGame& game, const storage::MatchRecord& match, Start start);
+  void post(storage::Writer::Work work, std::function<void()> then, std::string what);
+
+  GameServices& services_;
+  storage::Counters& ids_;
+  Outside outside_;
+  std::map<MatchId, LiveMatch> matches_;
+};
+
+}  // namespace poolhall::net
