@@ -16,7 +16,9 @@ std::optional<client::PlayerFactory> house_bot(std::string_view name,
   }
   if (name == "greedy") {
     return [settings](const client::GameInfo& info) -> std::unique_ptr<client::Player> {
-      return std::make_unique<GreedyBot>(info, GreedySettings{.seed = settings.seed});
+      GreedySettings greedy{.seed = settings.seed};
+      greedy.effort = settings.effort.value_or(greedy.effort);
+      return std::make_unique<GreedyBot>(info, greedy);
     };
   }
   return std::nullopt;

@@ -15,6 +15,8 @@ namespace poolhall::bots {
 
 struct HouseBotSettings {
   std::uint64_t seed = 1;
+  // Of greedy, GreedySettings::effort; unset: its own default.
+  std::optional<std::uint64_t> effort{};
 };
 
 // Nothing if there is no house bot of that name.

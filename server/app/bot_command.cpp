@@ -27,6 +27,7 @@ struct BotArguments {
   std::string token;
   std::string name;
   std::uint64_t seed = 1;
+  std::optional<std::uint64_t> effort;
   unsigned threads = 1;
   std::int64_t parent = 0;  // 0: nobody's child in particular
 };
@@ -89,7 +90,8 @@ int run_bot(const BotArguments& arguments) {
     logger->error("--token: expected 64 hexadecimal digits in lower case");
     return 2;
   }
-  const auto player = bots::house_bot(arguments.bot, {.seed = arguments.seed});
+  const auto player =
+      bots::house_bot(arguments.bot, {.seed = arguments.seed, .effort = arguments.effort});
   if (!player) {
     logger->error("NAME: got \"{}\", expected one of {}", arguments.bot,
                   fmt::join(bots::house_bot_names(), ", "));
@@ -124,6 +126,10 @@ void add_bot_command(CLI::App& app, int& exit_code) {
       ->envname("POOLHALL_TOKEN");
   command->add_option("--name", arguments->name, "The agent's name when it registers");
   command->add_option("--seed", arguments->seed, "The same seed plays the same game");
+  command
+      ->add_option("--effort", arguments->effort,
+                   "Simulated events that a shot of greedy may cost, about")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   command->add_option("--threads", arguments->threads, "Moves chosen at the same time, one a game")
       ->check(CLI::Range(1U, 256U));
   command->add_option("--parent", arguments->parent,

@@ -41,11 +41,11 @@ struct Mirrored {
   }
 };
 
-// {samples = 4, seed = 7} in the file, --samples 4 --seed 7 for the program.
+// {samples = 4, seed = 7} in the file, --effort 3000 --seed 7 for the program.
 struct Options {
   using Value = std::vector<std::string>;
   static std::string expected() {
-    return "a table of the bot's options, {samples = 4}: names of a-z 0-9 -, each with a number, "
+    return "a table of the bot's options, {effort = 3000}: names of a-z 0-9 -, each with a number, "
            "a string or true";
   }
   static std::optional<Value> read(const Node& node) {
