@@ -28,7 +28,7 @@ namespace poolhall::client {
 
 // What is fixed for a game.
 struct GameInfo {
-  std::string game;                       // the server's id
+  std::string game{};                     // the server's id
   rules::Seat seat = rules::Seat::first;  // this player's
   std::string opponent{};
   rules::RuleSet rules = rules::RuleSet::eight_ball;
