@@ -151,8 +151,8 @@ protocol::Expected<storage::AgentId> Challenges::opponent_of(storage::AgentId fr
 }
 
 void Challenges::offer(ChallengeId id, Entry& entry, const Asker& asker) {
-  entry.expiry = services_.deadlines.at(steady_clock::now() + services_.limits.challenge_expiry,
-                                        [this, id] { expire(id); });
+  entry.expires = steady_clock::now() + services_.limits.challenge_expiry;
+  entry.expiry = services_.deadlines.at(entry.expires, [this, id] { expire(id); });
   reply(asker, id, entry);
   push(entry.to, offer_of(id, entry));
 }
@@ -164,7 +164,7 @@ protocol::ChallengeOffer Challenges::offer_of(ChallengeId id, const Entry& entry
   offer.rules = entry.terms.rules;
   offer.noise = entry.terms.noise;
   offer.clock = clock_settings_of(entry.terms);
-  offer.expires_ms = services_.time.ms(steady_clock::now() + services_.limits.challenge_expiry);
+  offer.expires_ms = services_.time.ms(entry.expires);
   return offer;
 }
 

@@ -45,6 +45,7 @@ class Challenges {
     State state = State::offered;
     std::optional<MatchId> match{};
     std::vector<Asker> askers;  // who wait for the match to be stored
+    SteadyTime expires{};       // the offer
     Deadline expiry;            // of the offer, later of the entry
   };
   using Key = std::pair<storage::AgentId, std::string>;  // agent and challenge_id

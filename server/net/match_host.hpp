@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "protocol/ids.hpp"
+#include "protocol/messages.hpp"
 #include "rules/game_state.hpp"
 #include "server/storage/records.hpp"
 
@@ -117,6 +118,10 @@ class MatchHost {
   // After each game, void ones not included; for progress displays.
   virtual void on_game_over(
       std::function<void(const MatchOrder&, const GameOutcome&)> callback) = 0;
+
+  // Tells every agent that entered: tournament.over. The status is set_status's business.
+  virtual void announce_end(const std::string& tournament,
+                            const std::vector<protocol::StandingRow>& standings) = 0;
 };
 
 }  // namespace poolhall::net
