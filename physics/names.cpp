@@ -38,11 +38,12 @@ constexpr Names<MotionState, 5> motion_states{{{MotionState::stationary, "statio
                                                {MotionState::sliding, "sliding"},
                                                {MotionState::pocketed, "pocketed"}}};
 
-constexpr Names<EventType, 5> event_types{{{EventType::cue_strike, "cue_strike"},
+constexpr Names<EventType, 6> event_types{{{EventType::cue_strike, "cue_strike"},
                                            {EventType::ball_collision, "ball_collision"},
                                            {EventType::rail_collision, "rail_collision"},
                                            {EventType::pocketed, "pocketed"},
-                                           {EventType::transition, "transition"}}};
+                                           {EventType::transition, "transition"},
+                                           {EventType::off_table, "off_table"}}};
 
 constexpr Names<PocketId, 6> pockets{{{PocketId::head_left, "head_left"},
                                       {PocketId::head_right, "head_right"},
