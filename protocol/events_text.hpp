@@ -1,5 +1,5 @@
-// Writes events, balls and simulations of any number type. `write_real` has an overload for
-// double here; whoever simulates with another type gives one for that.
+// Writes events and balls of any number type. `write_real` has overloads for double and long
+// double; whoever simulates with another type gives one for that in this namespace.
 //
 //   write_events(out, simulation.events, EventDetail::full);
 #pragma once
@@ -12,6 +12,9 @@
 namespace poolhall::protocol {
 
 inline void write_real(JsonWriter& out, double value) {
+  out.number(value);
+}
+inline void write_real(JsonWriter& out, long double value) {
   out.number(value);
 }
 

@@ -16,7 +16,7 @@ bool is_plain(std::string_view text) {
 
 template <class Number>
 void append(std::string& text, Number value) {
-  std::array<char, 32> digits;  // the longest shortest double has 24 characters
+  std::array<char, 64> digits;  // the longest shortest double has 24, long double 30
   const auto [end, failure] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
   static_cast<void>(failure);
   text.append(digits.data(), end);
@@ -43,7 +43,8 @@ JsonWriter& JsonWriter::integer(std::uint64_t value) {
   return *this;
 }
 
-JsonWriter& JsonWriter::number(double value) {
+template <class Real>
+JsonWriter& JsonWriter::shortest(Real value) {
   if (!std::isfinite(value)) {
     return null();
   }
@@ -55,6 +56,14 @@ JsonWriter& JsonWriter::number(double value) {
     append(text_, value);
   }
   return *this;
+}
+
+JsonWriter& JsonWriter::number(double value) {
+  return shortest(value);
+}
+
+JsonWriter& JsonWriter::number(long double value) {
+  return shortest(value);
 }
 
 JsonWriter& JsonWriter::string(std::string_view value) {

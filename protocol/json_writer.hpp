@@ -39,6 +39,7 @@ class JsonWriter {
     }
   }
   JsonWriter& number(double value);  // null if not finite
+  JsonWriter& number(long double value);
   // Invalid UTF-8 comes out as U+FFFD.
   JsonWriter& string(std::string_view value);
   // One JSON value as it is.
@@ -49,6 +50,8 @@ class JsonWriter {
   [[nodiscard]] std::string text() && { return std::move(text_); }
 
  private:
+  template <class Real>
+  JsonWriter& shortest(Real value);
   JsonWriter& open(char bracket);
   JsonWriter& close(char bracket);
   void separate();

@@ -4,6 +4,7 @@ namespace poolhall::app {
 
 void add_commands(CLI::App& app, int& exit_code) {
   add_bot_command(app, exit_code);
+  add_simulate_command(app, exit_code);
 }
 
 }  // namespace poolhall::app

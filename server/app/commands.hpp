@@ -11,5 +11,6 @@ namespace poolhall::app {
 void add_commands(CLI::App& app, int& exit_code);
 
 void add_bot_command(CLI::App& app, int& exit_code);
+void add_simulate_command(CLI::App& app, int& exit_code);
 
 }  // namespace poolhall::app

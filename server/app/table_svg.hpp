@@ -1,0 +1,16 @@
+// A picture of a shot: the table from above, head at the bottom, every ball's path, where it began
+// and where it ended. A path between two events is a parabola, which SVG draws exactly.
+//
+//   std::string svg = table_svg(scene, simulation);
+#pragma once
+
+#include <string>
+
+#include "physics/simulator.hpp"
+
+namespace poolhall::app {
+
+[[nodiscard]] std::string table_svg(const physics::Scene<double>& scene,
+                                    const physics::Simulation<double>& simulation);
+
+}  // namespace poolhall::app
