@@ -89,7 +89,7 @@ const std::vector<Room>& rooms() {
        {"server/web", "server/net", "server/match", "server/storage", "server/tournament",
         "server/ratings", "server/settings", "clients/cpp", "clients/bots", "clients/cli",
         "protocol", "rules", "physics", "physics/reference", "tests/bench"},
-       with_system({"CLI/", "spdlog/", "fmt/"}),
+       with_system({"CLI/", "spdlog/", "fmt/", "boost/multiprecision/"}),
        {}},
   };
   return all;
