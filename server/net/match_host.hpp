@@ -112,6 +112,9 @@ class MatchHost {
   virtual void start_match(const MatchOrder& order) = 0;
   [[nodiscard]] virtual std::vector<MatchOutcome> finished_matches(
       const std::string& tournament) const = 0;
+  // Those that have begun and are not over, with the games scored so far.
+  [[nodiscard]] virtual std::vector<MatchOutcome> unfinished_matches(
+      const std::string& tournament) const = 0;
 
   // Each replaces the callback before it. A match is told after its last game is stored.
   virtual void on_match_over(std::function<void(const MatchOutcome&)> callback) = 0;

@@ -308,6 +308,16 @@ std::optional<MatchId> Matches::find(const std::string& tournament, std::uint32_
   return std::nullopt;
 }
 
+std::vector<MatchOutcome> Matches::unfinished(const std::string& tournament) const {
+  std::vector<MatchOutcome> unfinished;
+  for (const auto& [id, match] : matches_) {
+    if (match.record.tournament == tournament && match.record.pairing) {
+      unfinished.push_back({tournament, *match.record.pairing, id, outcomes(match)});
+    }
+  }
+  return unfinished;
+}
+
 std::optional<MatchId> Matches::find_request(const std::string& request) const {
   for (const auto& [id, match] : matches_) {
     if (match.record.request == request) {

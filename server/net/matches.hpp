@@ -54,6 +54,8 @@ class Matches {
 
   [[nodiscard]] std::optional<MatchId> find(const std::string& tournament,
                                             std::uint32_t pairing) const;
+  // Of a tournament, those that go on, with the games scored so far.
+  [[nodiscard]] std::vector<MatchOutcome> unfinished(const std::string& tournament) const;
   [[nodiscard]] std::optional<MatchId> find_request(const std::string& request) const;
   [[nodiscard]] std::size_t size() const { return matches_.size(); }
   // Restored matches without a tournament: nobody else would start their next game.

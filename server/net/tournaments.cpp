@@ -277,6 +277,10 @@ std::vector<MatchOutcome> Tournaments::finished_matches(const std::string& tourn
   return outcomes;
 }
 
+std::vector<MatchOutcome> Tournaments::unfinished_matches(const std::string& tournament) const {
+  return matches_.unfinished(tournament);
+}
+
 void Tournaments::on_match_over(std::function<void(const MatchOutcome&)> callback) {
   on_match_over_ = std::move(callback);
 }

@@ -37,6 +37,8 @@ class Tournaments final : public MatchHost {
   void start_match(const MatchOrder& order) override;
   [[nodiscard]] std::vector<MatchOutcome> finished_matches(
       const std::string& tournament) const override;
+  [[nodiscard]] std::vector<MatchOutcome> unfinished_matches(
+      const std::string& tournament) const override;
   void on_match_over(std::function<void(const MatchOutcome&)> callback) override;
   void on_game_over(std::function<void(const MatchOrder&, const GameOutcome&)> callback) override;
   void announce_end(const std::string& tournament,
