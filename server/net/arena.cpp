@@ -1,0 +1,352 @@
+#include "server/net/arena.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "physics/version.hpp"
+#include "rules/version.hpp"
+
+namespace poolhall::net {
+
+using protocol::Error;
+using protocol::ErrorCode;
+using std::chrono::steady_clock;
+
+namespace {
+
+// How long shots in flight may take once the server stops, and how long last lines.
+constexpr std::chrono::seconds longest_stop{10};
+constexpr std::chrono::milliseconds last_lines{300};
+
+}  // namespace
+
+Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
+             storage::Writer& writer, Archive& archive, ArenaSettings settings)
+    : io_(io),
+      settings_(std::move(settings)),
+      deadlines_(io),
+      connections_{settings_.limits, deadlines_},
+      services_{io,
+                workers,
+                writer,
+                archive,
+                deadlines_,
+                book_,
+                time_,
+                settings_.limits,
+                [this](LiveGame& game) { game_over(game); },
+                [this] { look_whether_quiet(); }},
+      bots_(io, deadlines_),
+      matches_(services_, ids_,
+               {[this](std::shared_ptr<LiveGame> game) { launch(std::move(game)); },
+                [this](const std::string& id) { return tournaments_.wire_id(id); },
+                [this](const storage::MatchRecord& match, const GameOutcome& outcome) {
+                  tournaments_.game_over(match, outcome);
+                },
+                [this](const storage::MatchRecord& match, const std::vector<GameOutcome>& games) {
+                  tournaments_.match_over(match, games);
+                }}),
+      tournaments_(services_, matches_, ids_,
+                   [this](const std::string& name, const HousePlayer& player) -> Agent& {
+                     return house_agent(name, player);
+                   }),
+      challenges_(services_, matches_,
+                  {[this](const std::string& bot) { return house_opponent(bot); }}),
+      finished_(services_, [this](const storage::MatchRecord& match) {
+        return match.tournament ? tournaments_.wire_id(*match.tournament) : std::nullopt;
+      }) {}
+
+Arena::~Arena() = default;
+
+storage::Expected<void> Arena::restore(storage::Reader& reader) {
+  auto counters = reader.counters();
+  auto agents = reader.agents();
+  auto matches = reader.unfinished_matches();
+  auto games = reader.unfinished_games();
+  if (!counters || !agents) {
+    return tl::unexpected(counters ? agents.error() : counters.error());
+  }
+  if (!matches || !games) {
+    return tl::unexpected(matches ? games.error() : matches.error());
+  }
+  ids_ = *counters;
+  for (storage::AgentRecord& agent : *agents) {
+    book_.add(std::move(agent));
+  }
+  if (auto restored = tournaments_.restore(reader); !restored) {
+    return restored;
+  }
+  for (const storage::MatchRecord& match : *matches) {
+    const auto played = reader.games_of(match.id);
+    if (!played) {
+      return tl::unexpected(played.error());
+    }
+    matches_.restore(match, *played);
+    challenges_.restore(match);
+  }
+  unfinished_ = std::move(*games);
+  return {};
+}
+
+void Arena::begin(const HouseBots::Settings& bots) {
+  book_.for_each([this](Agent& agent) {
+    // The bots of tournaments' entries are employed when the driver enters them again.
+    if (agent.record.house_bot && agent.record.name.starts_with("house:")) {
+      bots_.employ(book_, agent, {.bot = *agent.record.house_bot});
+    }
+  });
+  bots_.configure(bots);
+  for (const storage::UnfinishedGame& game : std::exchange(unfinished_, {})) {
+    if (const auto resumed = matches_.resume(game); !resumed) {
+      spdlog::error("{}", resumed.error());
+    }
+  }
+  for (const MatchId match : matches_.challenges()) {
+    matches_.go_on(match, false);
+  }
+}
+
+void Arena::accept(boost::asio::ip::tcp::socket socket, std::function<void()> gone) {
+  const ConnectionId id{next_connection_++};
+  auto connection = std::make_shared<Connection>(std::move(socket), id, connections_);
+  connection->on_gone(std::move(gone));
+  spdlog::info("connection {} from {}", number(id), connection->peer());
+  const auto session = std::make_shared<Session>(std::move(connection), *this);
+  sessions_.emplace(number(id), session);
+  session->begin();
+  if (stage_ != Stage::running) {
+    session->close({ErrorCode::shutting_down, "", "the server stops; come back later"});
+  }
+}
+
+void Arena::ended(Session& session) {
+  if (const auto agent = session.agent()) {
+    Agent* known = book_.find(*agent);
+    if (known != nullptr && known->session.lock().get() == &session) {
+      known->session.reset();
+    }
+  }
+  sessions_.erase(number(session.connection().id()));
+}
+
+protocol::HelloReply Arena::greeting(const Session& session) const {
+  protocol::HelloReply reply;
+  reply.server = {settings_.name, "0.1.0"};
+  reply.session = fmt::format("{}", number(session.connection().id()));
+  reply.limits = settings_.limits;
+  reply.rules_version = rules::version;
+  reply.physics_version = physics::version;
+  reply.time_ms = time_.ms(steady_clock::now());
+  return reply;
+}
+
+LiveGame* Arena::live_game(protocol::GameId game) const {
+  const auto found = games_.find(number(game));
+  return found == games_.end() ? nullptr : found->second.get();
+}
+
+bool Arena::is_awaited(storage::AgentId agent, const protocol::Request& request) const {
+  const auto* shot = std::get_if<protocol::Shot>(&request);
+  const auto* decide = std::get_if<protocol::Decide>(&request);
+  if (shot == nullptr && decide == nullptr) {
+    return false;
+  }
+  const LiveGame* game = live_game(shot != nullptr ? shot->game : decide->game);
+  const auto seat = game != nullptr ? game->seat_of(agent) : std::nullopt;
+  return seat && game->is_awaited(*seat, request);
+}
+
+void Arena::handle(const Asker& asker, storage::AgentId agent, protocol::Request request,
+                   SteadyTime read_at) {
+  using protocol::Method;
+  const Method method = protocol::method_of(request);
+  const bool begins_something = method == Method::challenge || method == Method::challenge_accept ||
+                                method == Method::tournament_join;
+  if (begins_something && stage_ != Stage::running) {
+    asker.refuse({ErrorCode::shutting_down, "", "the server stops; ask again when it is back"});
+    return;
+  }
+  switch (method) {
+    case Method::tournament_list:
+      return tournaments_.list(asker);
+    case Method::tournament_join:
+      return tournaments_.join(asker, agent,
+                               std::get<protocol::TournamentJoin>(request).tournament);
+    case Method::tournament_leave:
+      return tournaments_.leave(asker, agent,
+                                std::get<protocol::TournamentLeave>(request).tournament);
+    case Method::challenge:
+      return challenges_.challenge(asker, agent, std::get<protocol::Challenge>(request));
+    case Method::challenge_accept:
+      return challenges_.accept(asker, agent,
+                                std::get<protocol::ChallengeAccept>(request).challenge);
+    case Method::challenge_decline:
+      return challenges_.decline(asker, agent,
+                                 std::get<protocol::ChallengeDecline>(request).challenge);
+    case Method::shot:
+    case Method::decide:
+    case Method::concede:
+    case Method::sync:
+      return handle_game(asker, agent, request, read_at);
+    case Method::ack:
+      return acknowledge(asker, agent, std::get<protocol::Ack>(request).game);
+    default:
+      asker.refuse({ErrorCode::method_not_found, "/method",
+                    fmt::format("got {}, which this server does not do", protocol::name(method))});
+  }
+}
+
+void Arena::handle_game(const Asker& asker, storage::AgentId agent, protocol::Request& request,
+                        SteadyTime read_at) {
+  const auto with_seat = [&](protocol::GameId id, const auto& live, const auto& over) {
+    LiveGame* game = live_game(id);
+    if (game == nullptr) {
+      over();
+    } else if (const auto seat = game->seat_of(agent)) {
+      live(*game, *seat);
+    } else {
+      asker.refuse(unknown_game(id));
+    }
+  };
+  if (auto* shot = std::get_if<protocol::Shot>(&request)) {
+    with_seat(
+        shot->game,
+        [&](LiveGame& game, Seat seat) {
+          game.take({asker, seat, std::move(*shot), read_at});
+        },
+        [&] { finished_.repeat(asker, agent, *shot); });
+  } else if (auto* decide = std::get_if<protocol::Decide>(&request)) {
+    with_seat(
+        decide->game,
+        [&](LiveGame& game, Seat seat) {
+          game.take({asker, seat, *decide, read_at});
+        },
+        [&] { finished_.repeat(asker, agent, *decide); });
+  } else if (auto* concede = std::get_if<protocol::Concede>(&request)) {
+    with_seat(
+        concede->game,
+        [&](LiveGame& game, Seat seat) {
+          game.take({asker, seat, *concede, read_at});
+        },
+        [&] { finished_.concede(asker, agent, concede->game); });
+  } else if (auto* sync = std::get_if<protocol::Sync>(&request)) {
+    with_seat(
+        sync->game, [&](LiveGame& game, Seat seat) { game.sync(asker, seat); },
+        [&] { finished_.sync(asker, agent, sync->game); });
+  }
+}
+
+void Arena::acknowledge(const Asker& asker, storage::AgentId agent, protocol::GameId game) {
+  if (LiveGame* live = live_game(game); live != nullptr && live->seat_of(agent)) {
+    asker.refuse({ErrorCode::invalid_params, "/params/game",
+                  fmt::format("got {}, a game that goes on", number(game)), game});
+    return;
+  }
+  if (const auto found = unacknowledged_.find(agent); found != unacknowledged_.end()) {
+    found->second.games.erase(game);
+  }
+  finished_.acknowledge(asker, agent, game);
+}
+
+void Arena::launch(std::shared_ptr<LiveGame> game) {
+  const storage::GameRecord& record = game->record();
+  games_[number(record.id)] = game;
+  for (const storage::AgentId agent : record.agents) {
+    games_of_[agent].push_back(record.id);
+    bots_.need(agent);
+  }
+  if (stage_ != Stage::running) {
+    game->halt();
+  }
+  game->begin();
+}
+
+void Arena::game_over(LiveGame& game) {
+  const storage::GameRecord& record = game.record();
+  const protocol::GameOver over = over_of(record);
+  spdlog::info("game {} is over: {}, {}", number(record.id),
+               over.winner ? book_.name_of(record.agents[rules::index(*over.winner)]) + " wins"
+                           : "nobody wins",
+               rules::name(over.reason));
+  ++games_over_;
+  for (const storage::AgentId agent : record.agents) {
+    std::erase(games_of_[agent], record.id);
+    storage::GameRecord kept = record;
+    kept.initial_state.clear();  // only its end is told again
+    unacknowledged_[agent].games.emplace(record.id, std::move(kept));
+    if (games_of_[agent].empty()) {
+      bots_.release(agent);
+    }
+  }
+  matches_.game_over(game);
+  games_.erase(number(record.id));  // whoever called holds it until the call is done
+}
+
+void Arena::stop(std::function<void()> then) {
+  if (stage_ != Stage::running) {
+    return;
+  }
+  spdlog::info("stopping: {} games stand until the server is back", games_.size());
+  stage_ = Stage::stopping;
+  after_stop_ = std::move(then);
+  for (const auto& [id, game] : games_) {
+    game->halt();
+  }
+  stop_deadline_ = deadlines_.at(steady_clock::now() + longest_stop, [this] { tell_everyone(); });
+  look_whether_quiet();
+}
+
+void Arena::look_whether_quiet() {
+  if (stage_ != Stage::stopping) {
+    return;
+  }
+  const bool busy = std::any_of(games_.begin(), games_.end(),
+                                [](const auto& entry) { return entry.second->in_flight(); });
+  if (!busy) {
+    tell_everyone();
+  }
+}
+
+void Arena::tell_everyone() {
+  if (stage_ == Stage::told) {
+    return;
+  }
+  stage_ = Stage::told;
+  const auto sessions = sessions_;
+  for (const auto& [id, session] : sessions) {
+    session->close_with(protocol::ShuttingDown{"the server stops; games go on when it is back"},
+                        "shutting_down");
+  }
+  bots_.stop();
+  stop_deadline_ = deadlines_.at(steady_clock::now() + last_lines, [this] { after_stop_(); });
+}
+
+void Arena::storage_health(const storage::WriterHealth& health) {
+  storage_in_trouble_ = health.trouble.has_value();
+  if (health.trouble) {
+    spdlog::error("the database takes nothing, games stand: {} ({} pieces of work wait)",
+                  health.trouble->reason, health.waiting);
+  } else {
+    spdlog::info("the database works again, games go on");
+  }
+}
+
+ArenaFigures Arena::figures() const {
+  ArenaFigures figures;
+  figures.connections = sessions_.size();
+  figures.agents_here = static_cast<std::size_t>(
+      std::count_if(sessions_.begin(), sessions_.end(),
+                    [](const auto& entry) { return entry.second->agent().has_value(); }));
+  figures.agents_known = book_.size();
+  figures.games = games_.size();
+  figures.matches = matches_.size();
+  figures.house_bots = bots_.running();
+  figures.games_over = games_over_;
+  figures.storage_in_trouble = storage_in_trouble_;
+  return figures;
+}
+
+}  // namespace poolhall::net

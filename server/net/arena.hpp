@@ -1,0 +1,146 @@
+// The hub: who is here, which games go on, and where each request goes. All of it lives on the
+// network thread.
+//
+//   Arena arena{io, workers, writer, archive, settings};
+//   if (auto restored = arena.restore(*reader); !restored) die(restored.error());
+//   arena.accept(std::move(socket), on_gone);
+//   arena.begin();              // games that were going on, go on
+//   arena.stop([&] { io.stop(); });
+#pragma once
+
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <unordered_map>
+#include <vector>
+
+#include "server/net/challenges.hpp"
+#include "server/net/finished_games.hpp"
+#include "server/net/house_bots.hpp"
+#include "server/net/live_game.hpp"
+#include "server/net/matches.hpp"
+#include "server/net/session.hpp"
+#include "server/net/tournaments.hpp"
+
+namespace poolhall::net {
+
+enum class Registration : std::uint8_t { open, closed };
+
+struct ArenaSettings {
+  protocol::Limits limits;
+  std::string name = "poolhall";
+  Registration registration = Registration::open;
+  std::vector<std::string> house_bots;  // that agents may challenge as "house:NAME"
+};
+
+// For people and their graphs.
+struct ArenaFigures {
+  std::size_t connections = 0;
+  std::size_t agents_here = 0;
+  std::size_t agents_known = 0;
+  std::size_t games = 0;
+  std::size_t matches = 0;
+  std::size_t house_bots = 0;
+  std::uint64_t games_over = 0;  // since the start
+  bool storage_in_trouble = false;
+};
+
+class Arena final : public Lobby {
+ public:
+  Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers, storage::Writer& writer,
+        Archive& archive, ArenaSettings settings);
+  ~Arena() override;
+
+  // Takes up what the database has, before anything else.
+  [[nodiscard]] storage::Expected<void> restore(storage::Reader& reader);
+  // Restored games go on; house bots may start.
+  void begin(const HouseBots::Settings& bots);
+  // A new connection; `gone` is called when its socket is closed.
+  void accept(boost::asio::ip::tcp::socket socket, std::function<void()> gone);
+  // No new turns; when nothing is in flight and everyone is told, `then`.
+  void stop(std::function<void()> then);
+  void storage_health(const storage::WriterHealth& health);
+
+  [[nodiscard]] MatchHost& host() { return tournaments_; }
+  [[nodiscard]] ArenaFigures figures() const;
+
+  // Lobby.
+  [[nodiscard]] const protocol::Limits& limits() const override { return settings_.limits; }
+  [[nodiscard]] DeadlineQueue& deadlines() override { return deadlines_; }
+  [[nodiscard]] protocol::HelloReply greeting(const Session& session) const override;
+  [[nodiscard]] std::int64_t time_ms(SteadyTime t) const override { return time_.ms(t); }
+  void enroll(const std::shared_ptr<Session>& session, const protocol::Register& request) override;
+  void admit(const std::shared_ptr<Session>& session, const protocol::Login& request) override;
+  [[nodiscard]] bool is_awaited(storage::AgentId agent,
+                                const protocol::Request& request) const override;
+  void handle(const Asker& asker, storage::AgentId agent, protocol::Request request,
+              SteadyTime read_at) override;
+  void ended(Session& session) override;
+
+ private:
+  // Games over in this agent's sight that it has not acknowledged.
+  struct Unacknowledged {
+    bool read = false;  // from the database, where earlier runs of the server left theirs
+    std::map<protocol::GameId, storage::GameRecord> games;
+  };
+  enum class Stage : std::uint8_t { running, stopping, told };
+
+  // Joining: registration, login, takeover (arena_joining.cpp).
+  [[nodiscard]] std::optional<protocol::Error> why_not(const protocol::Register& request) const;
+  void add_agent(const std::shared_ptr<Session>& session, const std::string& name,
+                 const std::string& token);
+  void let_in(const std::shared_ptr<Session>& session, storage::AgentId agent,
+              std::optional<protocol::Hex256> token);
+  void bind(const std::shared_ptr<Session>& session, Agent& agent,
+            std::optional<protocol::Hex256> token);
+  void catch_up(const std::shared_ptr<Session>& session, const Agent& agent);
+  [[nodiscard]] protocol::LoginReply login_reply(const Agent& agent) const;
+  [[nodiscard]] protocol::GameListing listing_of(const storage::GameRecord& game,
+                                                 storage::AgentId agent) const;
+  Agent& house_agent(const std::string& name, const HousePlayer& player);
+  [[nodiscard]] std::optional<storage::AgentId> house_opponent(const std::string& bot);
+
+  // Requests.
+  void handle_game(const Asker& asker, storage::AgentId agent, protocol::Request& request,
+                   SteadyTime read_at);
+  void acknowledge(const Asker& asker, storage::AgentId agent, protocol::GameId game);
+  [[nodiscard]] LiveGame* live_game(protocol::GameId game) const;
+
+  // Games.
+  void launch(std::shared_ptr<LiveGame> game);
+  void game_over(LiveGame& game);
+  void look_whether_quiet();
+  void tell_everyone();
+
+  boost::asio::io_context& io_;
+  ArenaSettings settings_;
+  WireTime time_;
+  DeadlineQueue deadlines_;
+  ConnectionContext connections_;
+  AgentBook book_;
+  storage::Counters ids_;
+  GameServices services_;
+  HouseBots bots_;
+  Matches matches_;
+  Tournaments tournaments_;
+  Challenges challenges_;
+  FinishedGames finished_;
+  std::unordered_map<std::int64_t, std::shared_ptr<LiveGame>> games_;
+  std::map<storage::AgentId, std::vector<protocol::GameId>> games_of_;
+  std::map<storage::AgentId, Unacknowledged> unacknowledged_;
+  std::unordered_map<std::uint64_t, std::shared_ptr<Session>> sessions_;
+  std::vector<storage::UnfinishedGame> unfinished_;  // until begin()
+  std::uint64_t next_connection_ = 1;
+  std::uint64_t games_over_ = 0;
+  bool storage_in_trouble_ = false;
+  Stage stage_ = Stage::running;
+  std::function<void()> after_stop_;
+  Deadline stop_deadline_;
+};
+
+}  // namespace poolhall::net

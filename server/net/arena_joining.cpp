@@ -1,0 +1,273 @@
+// The part of Arena at the door: registration, login, takeover, and what a new session must know.
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "server/net/arena.hpp"
+
+namespace poolhall::net {
+
+using protocol::Error;
+using protocol::ErrorCode;
+using std::chrono::steady_clock;
+
+namespace {
+
+bool is_name(std::string_view name, std::size_t longest) {
+  return !name.empty() && name.size() <= longest &&
+         std::all_of(name.begin(), name.end(), [](char c) {
+           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                  c == '.' || c == '_' || c == '-';
+         });
+}
+
+// A token that nobody has: its owner gets another from employ().
+TokenHash nobody() {
+  return hash_of(new_token());
+}
+
+}  // namespace
+
+std::optional<Error> Arena::why_not(const protocol::Register& request) const {
+  if (stage_ != Stage::running) {
+    return Error{ErrorCode::shutting_down, "", "the server stops; come back later"};
+  }
+  if (settings_.registration == Registration::closed) {
+    return Error{ErrorCode::registration_closed, "",
+                 "agents are added by the host; ask for a token"};
+  }
+  if (!is_name(request.name, settings_.limits.name_length)) {
+    return Error{
+        ErrorCode::bad_name, "/params/name",
+        fmt::format("expected 1 to {} characters of [A-Za-z0-9._-]", settings_.limits.name_length)};
+  }
+  return std::nullopt;
+}
+
+void Arena::enroll(const std::shared_ptr<Session>& session, const protocol::Register& request) {
+  if (const auto error = why_not(request)) {
+    session->not_admitted(*error);
+    return;
+  }
+  Agent* known = book_.named(request.name);
+  const bool own = known != nullptr && request.token &&
+                   same(known->record.token_hash, hash_of(request.token->text));
+  if (known != nullptr && !own) {
+    session->not_admitted({ErrorCode::name_taken, "/params/name",
+                           fmt::format("\"{}\" is another agent's name", request.name)});
+    return;
+  }
+  if (known != nullptr) {
+    let_in(session, known->id(), request.token);  // whose first reply was lost
+    return;
+  }
+  const std::string token = request.token ? request.token->text : new_token();
+  if (book_.with_token(hash_of(token)) != nullptr) {
+    session->not_admitted({ErrorCode::conflicting_request, "/params/token",
+                           "this token belongs to an agent of another name"});
+    return;
+  }
+  add_agent(session, request.name, token);
+}
+
+void Arena::add_agent(const std::shared_ptr<Session>& session, const std::string& name,
+                      const std::string& token) {
+  storage::AgentRecord record;
+  record.id = ids_.agent;
+  ids_.agent = storage::AgentId{storage::number(ids_.agent) + 1};
+  record.name = name;
+  record.token_hash = hash_of(token);
+  record.created = storage::unix_now();
+  book_.add(record).stored = false;
+  const auto posted = services_.writer.post(
+      [record](storage::Database& database) { return database.add_agent(record); },
+      [this, session, id = record.id, token](const storage::Expected<void>& stored) {
+        if (!stored) {
+          book_.remove(id);
+          session->not_admitted({ErrorCode::internal, "", stored.error().reason});
+          session->resume();
+          return;
+        }
+        book_.find(id)->stored = true;
+        let_in(session, id, protocol::Hex256{token});
+        tournaments_.agent_enrolled();
+      });
+  if (posted != storage::Posted::accepted) {
+    book_.remove(record.id);
+    session->not_admitted({ErrorCode::paused, "", "the database takes nothing at the moment"});
+  }
+}
+
+void Arena::admit(const std::shared_ptr<Session>& session, const protocol::Login& request) {
+  const Agent* agent = book_.with_token(hash_of(request.token.text));
+  if (agent == nullptr) {
+    session->not_admitted({ErrorCode::unauthorized, "/params/token", "no agent has this token"});
+    return;
+  }
+  let_in(session, agent->id(), std::nullopt);
+}
+
+// Reads first what this agent has not acknowledged since before the server started.
+void Arena::let_in(const std::shared_ptr<Session>& session, storage::AgentId agent,
+                   std::optional<protocol::Hex256> token) {
+  Agent* known = book_.find(agent);
+  if (!known->stored) {
+    session->not_admitted({ErrorCode::rate_limited, "", "this agent is being stored; ask again"});
+    return;
+  }
+  if (unacknowledged_[agent].read) {
+    bind(session, *known, std::move(token));
+    return;
+  }
+  finished_.unacknowledged(
+      agent, [this, session, agent, token = std::move(token)](
+                 const storage::Expected<std::vector<storage::GameRecord>>& games) {
+        if (!games) {
+          session->not_admitted(
+              {ErrorCode::internal, "", "the database cannot be read: " + games.error().reason});
+          session->resume();
+          return;
+        }
+        Unacknowledged& open = unacknowledged_[agent];
+        open.read = true;
+        for (const storage::GameRecord& game : *games) {
+          open.games.emplace(game.id, game);
+        }
+        bind(session, *book_.find(agent), token);
+        session->resume();
+      });
+}
+
+void Arena::bind(const std::shared_ptr<Session>& session, Agent& agent,
+                 std::optional<protocol::Hex256> token) {
+  if (!session->connection().open()) {
+    return;
+  }
+  const SteadyTime now = steady_clock::now();
+  const auto old = agent.session.lock();
+  if (old && old->connection().open()) {
+    const auto pause = settings_.limits.takeover_interval;
+    if (agent.last_login && now - *agent.last_login < pause) {
+      session->not_admitted(
+          {ErrorCode::rate_limited, "",
+           fmt::format("this agent has logged in within the last {} ms", pause.count())});
+      return;
+    }
+    old->close_with(protocol::Superseded{}, "superseded");
+  }
+  agent.session = session;
+  agent.last_login = now;
+  protocol::LoginReply reply = login_reply(agent);
+  reply.token = std::move(token);
+  session->admitted(agent, reply);
+  catch_up(session, agent);
+}
+
+protocol::LoginReply Arena::login_reply(const Agent& agent) const {
+  protocol::LoginReply reply;
+  reply.agent = agent.record.name;
+  if (const auto open = unacknowledged_.find(agent.id()); open != unacknowledged_.end()) {
+    for (const auto& [id, game] : open->second.games) {
+      reply.games.push_back(listing_of(game, agent.id()));
+    }
+  }
+  if (const auto own = games_of_.find(agent.id()); own != games_of_.end()) {
+    for (const protocol::GameId id : own->second) {
+      const LiveGame* game = live_game(id);
+      reply.games.push_back(game->listing_for(*game->seat_of(agent.id())));
+    }
+  }
+  return reply;
+}
+
+protocol::GameListing Arena::listing_of(const storage::GameRecord& game,
+                                        storage::AgentId agent) const {
+  const Seat seat = game.agents[0] == agent ? Seat::first : Seat::second;
+  protocol::GameListing listing;
+  listing.game = game.id;
+  listing.match = game.match;
+  listing.seat = seat;
+  listing.opponent = book_.name_of(game.agents[rules::index(rules::other(seat))]);
+  listing.status = protocol::GameStatus::over;
+  return listing;
+}
+
+void Arena::catch_up(const std::shared_ptr<Session>& session, const Agent& agent) {
+  const auto open = unacknowledged_.find(agent.id());
+  if (open != unacknowledged_.end()) {
+    for (const auto& [id, game] : open->second.games) {
+      session->push(over_of(game));
+    }
+  }
+  const auto own = games_of_.find(agent.id());
+  if (own != games_of_.end()) {
+    const auto games = own->second;
+    for (const protocol::GameId id : games) {
+      if (LiveGame* game = live_game(id)) {
+        game->agent_came(*game->seat_of(agent.id()));
+      }
+    }
+  }
+  challenges_.agent_came(agent.id());
+}
+
+Agent& Arena::house_agent(const std::string& name, const HousePlayer& player) {
+  Agent* agent = book_.named(name);
+  if (agent == nullptr) {
+    storage::AgentRecord record;
+    record.id = ids_.agent;
+    ids_.agent = storage::AgentId{storage::number(ids_.agent) + 1};
+    record.name = name;
+    record.token_hash = nobody();
+    record.house_bot = player.bot;
+    record.created = storage::unix_now();
+    agent = &book_.add(record);
+    const auto posted = services_.writer.post(
+        [record](storage::Database& database) { return database.add_agent(record); },
+        [name](const storage::Expected<void>& stored) {
+          if (!stored) {
+            spdlog::error("agent {} cannot be stored: {}", name, stored.error().reason);
+          }
+        });
+    if (posted != storage::Posted::accepted) {
+      spdlog::error("agent {} cannot be stored: the database takes nothing", name);
+    }
+  } else if (!agent->record.house_bot) {
+    spdlog::warn(
+        "agent {} is played by the house from now on; its own token is good again "
+        "after the next start",
+        name);
+  }
+  bots_.employ(book_, *agent, player);
+  return *agent;
+}
+
+// One process a game as long as the bound allows, then the least busy one.
+std::optional<storage::AgentId> Arena::house_opponent(const std::string& bot) {
+  const auto& known = settings_.house_bots;
+  if (std::find(known.begin(), known.end(), bot) == known.end()) {
+    return std::nullopt;
+  }
+  std::optional<storage::AgentId> least;
+  std::size_t least_games = 0;
+  for (std::uint32_t number = 1;; ++number) {
+    const std::string name = number == 1 ? "house:" + bot : fmt::format("house:{}.{}", bot, number);
+    const Agent* agent = book_.named(name);
+    if (agent == nullptr) {
+      return bots_.full() && least ? least : house_agent(name, {.bot = bot}).id();
+    }
+    const auto own = games_of_.find(agent->id());
+    const std::size_t games = own == games_of_.end() ? 0 : own->second.size();
+    if (games == 0) {
+      return agent->id();
+    }
+    if (!least || games < least_games) {
+      least = agent->id();
+      least_games = games;
+    }
+  }
+}
+
+}  // namespace poolhall::net
