@@ -16,6 +16,7 @@
 
 #include "physics/ball_collision.hpp"
 #include "physics/boundary.hpp"
+#include "physics/contact_cluster.hpp"
 #include "physics/cushion.hpp"
 #include "physics/detect_pair.hpp"
 #include "physics/energy.hpp"
@@ -31,7 +32,8 @@ class EventLoop {
       : materials_(materials),
         c_(coefficients<Real>(materials)),
         boundary_(boundary<Real>(table, c_.radius)),
-        nose_(nose_angle<Real>(table, materials)) {}
+        nose_(nose_angle<Real>(table, materials)),
+        cluster_(c_) {}
 
   template <class Watch>
   Ending run(const BallSet<Real>& balls, const std::optional<CueShot<Real>>& shot,
@@ -84,6 +86,9 @@ class EventLoop {
   [[nodiscard]] Go pocket(std::size_t i, Watch& watch);
   template <class Watch>
   [[nodiscard]] Go bounce(std::size_t i, Watch& watch);
+  [[nodiscard]] bool is_crowded(std::size_t i, std::size_t k) const;
+  template <class Watch>
+  [[nodiscard]] Go meet_together(std::size_t i, std::size_t k, Watch& watch);
   template <class Watch>
   [[nodiscard]] Go meet(std::size_t i, std::size_t k, Watch& watch);
   template <class Watch>
@@ -98,6 +103,8 @@ class EventLoop {
   Coefficients<Real> c_;
   Boundary<Real> boundary_;
   NoseAngle<Real> nose_;
+  ContactCluster<Real> cluster_;
+  ContactModel contact_ = ContactModel::cluster;
   std::array<Body, max_balls> bodies_{};
   std::size_t count_ = 0;
   Instant<Real> now_{};

@@ -223,11 +223,79 @@ Go EventLoop<Real>::bounce(std::size_t i, Watch& watch) {
   return tell(watch, event, hop(closing));
 }
 
+// Whether a third ball may be close enough to i or k to be hit together with them.
+template <class Real>
+bool EventLoop<Real>::is_crowded(std::size_t i, std::size_t k) const {
+  const Real t_i = now_ - bodies_[i].motion.start;
+  const Real t_k = now_ - bodies_[k].motion.start;
+  const Vec2<Real> at_i = position_at(bodies_[i].motion, t_i);
+  const Vec2<Real> at_k = position_at(bodies_[k].motion, t_k);
+  const Vec2<Real> v = velocity_at(bodies_[i].motion, t_i) - velocity_at(bodies_[k].motion, t_k);
+  const Real reach = c_.diameter + cluster_.widest_gap(length(v));
+  for (std::size_t j = 0; j < count_; ++j) {
+    if (j == i || j == k || bodies_[j].down) {
+      continue;
+    }
+    const Vec2<Real> at = position_at(bodies_[j].motion, Real(now_ - bodies_[j].motion.start));
+    const Vec2<Real> from_i = at - at_i, from_k = at - at_k;
+    if (dot(from_i, from_i) <= reach * reach || dot(from_k, from_k) <= reach * reach) {
+      return true;
+    }
+  }
+  return false;
+}
+
+template <class Real>
+template <class Watch>
+Go EventLoop<Real>::meet_together(std::size_t i, std::size_t k, Watch& watch) {
+  typename ContactCluster<Real>::Balls balls{};
+  Indices present = 0;
+  for (std::size_t j = 0; j < count_; ++j) {
+    if (!bodies_[j].down) {
+      balls[j] = ball_now(j);
+      present |= Indices{1} << j;
+    }
+  }
+  cluster_.gather(balls, present, i, k);
+  Real before(0), after(0);
+  for (const Ball<Real>& ball : balls) {
+    before += kinetic_energy(ball, c_);
+  }
+  cluster_.resolve(balls, materials_.ball_friction);
+  for (std::size_t j = 0; j < count_; ++j) {
+    after += kinetic_energy(balls[j], c_);
+    if (((cluster_.changed() >> j) & 1U) != 0) {
+      begin_motion(j, balls[j]);
+    }
+  }
+  if (cluster_.raised()) {
+    account(before, after);
+  }
+  refresh(cluster_.changed());
+  events_ += static_cast<std::uint32_t>(cluster_.hits()) - 1;
+  Go go = Go::on;
+  for (std::size_t n = 0; n < cluster_.hits(); ++n) {
+    const ClusterHit<Real>& hit_now = cluster_.hit(n);
+    Event<Real> event;
+    event.t = now_.high;
+    event.type = EventType::ball_collision;
+    event.ball_count = 2;
+    event.after = {balls[hit_now.first], balls[hit_now.second]};
+    if (tell(watch, event, hop(hit_now.impulse)) == Go::stop) {
+      go = Go::stop;
+    }
+  }
+  return go;
+}
+
 template <class Real>
 template <class Watch>
 Go EventLoop<Real>::meet(std::size_t i, std::size_t k, Watch& watch) {
   if (bodies_[k].id < bodies_[i].id) {
     return meet(k, i, watch);
+  }
+  if (contact_ != ContactModel::sequential && is_crowded(i, k)) {
+    return meet_together(i, k, watch);
   }
   const Ball<Real> first = ball_now(i);
   const Ball<Real> second = ball_now(k);
@@ -292,6 +360,7 @@ template <class Real>
 template <class Watch>
 Ending EventLoop<Real>::run(const BallSet<Real>& balls, const std::optional<CueShot<Real>>& shot,
                             const SimulationOptions& options, Watch& watch) {
+  contact_ = options.contact;
   place(balls);
   Go go = Go::on;
   if (shot) {
