@@ -50,6 +50,8 @@ struct AgentRecord {
   Digest token_hash{};                     // the token itself is nowhere
   std::optional<std::string> house_bot{};  // played by a process that the server starts
   UnixMicros created{};
+
+  friend bool operator==(const AgentRecord&, const AgentRecord&) = default;
 };
 
 enum class TournamentStatus : std::uint8_t { open, running, paused, finished, aborted };
@@ -63,6 +65,8 @@ struct TournamentRecord {
   std::string settings;  // the driver's own text
   TournamentStatus status = TournamentStatus::open;
   UnixMicros created{};
+
+  friend bool operator==(const TournamentRecord&, const TournamentRecord&) = default;
 };
 
 struct EntryRecord {
@@ -73,6 +77,8 @@ struct EntryRecord {
   std::optional<std::string> house_bot{};    // played by a process that the server starts,
   std::vector<std::string> house_options{};  // with these options,
   std::optional<std::string> command{};      // or with this command
+
+  friend bool operator==(const EntryRecord&, const EntryRecord&) = default;
 };
 
 // The terms under which a game is played.
@@ -107,6 +113,8 @@ struct MatchRecord {
   bool over = false;
   UnixMicros created{};
   std::optional<UnixMicros> finished{};
+
+  friend bool operator==(const MatchRecord&, const MatchRecord&) = default;
 };
 
 struct GameRecord {
@@ -135,6 +143,8 @@ struct GameRecord {
   Digest seal{};  // match::seal over all of the above
 
   [[nodiscard]] rules::GameSettings settings() const;
+
+  friend bool operator==(const GameRecord&, const GameRecord&) = default;
 };
 
 // What a turn came to. Every turn of a game is one row, the last one too.
@@ -190,6 +200,8 @@ struct TurnRecord {
   std::string physics_version;
   std::string rules_version;
   Digest checksum{};  // match::chained over the row before and this
+
+  friend bool operator==(const TurnRecord&, const TurnRecord&) = default;
 };
 
 // The next free ids; the server that owns the file counts on from here.
@@ -198,6 +210,8 @@ struct Counters {
   TournamentId tournament{1};
   MatchId match{1};
   GameId game{1};
+
+  friend bool operator==(const Counters&, const Counters&) = default;
 };
 
 }  // namespace poolhall::storage

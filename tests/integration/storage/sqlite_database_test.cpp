@@ -1,0 +1,146 @@
+#include "server/storage/sqlite_database.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "sample_records.hpp"
+#include "tests/support/raw_sqlite.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace poolhall::storage {
+namespace {
+
+using test_support::RawSqlite;
+using test_support::TemporaryDirectory;
+using testing::HasSubstr;
+
+StorageError error_of(const std::filesystem::path& file) {
+  auto opened = open_sqlite(file);
+  EXPECT_FALSE(opened);
+  return opened ? StorageError{} : opened.error();
+}
+
+TEST(SqliteDatabase, says_that_the_directory_is_missing) {
+  TemporaryDirectory directory;
+  const StorageError error = error_of(directory / "nowhere/test.db");
+  EXPECT_EQ(error.fault, StorageFault::cannot_open);
+  EXPECT_THAT(error.reason, HasSubstr("there is no directory"));
+}
+
+TEST(SqliteDatabase, says_that_a_directory_is_not_a_file) {
+  TemporaryDirectory directory;
+  EXPECT_THAT(error_of(directory.path()).reason, HasSubstr("not a file"));
+}
+
+TEST(SqliteDatabase, says_that_a_file_is_not_a_database) {
+  TemporaryDirectory directory;
+  std::ofstream(directory / "test.db") << std::string(5000, 'x');
+  EXPECT_EQ(error_of(directory / "test.db").fault, StorageFault::not_a_database);
+}
+
+TEST(SqliteDatabase, leaves_another_programs_database_alone) {
+  TemporaryDirectory directory;
+  RawSqlite(directory / "test.db").run("CREATE TABLE mine(x)");
+  EXPECT_EQ(error_of(directory / "test.db").fault, StorageFault::foreign);
+}
+
+TEST(SqliteDatabase, refuses_a_newer_schema_and_says_which) {
+  TemporaryDirectory directory;
+  ASSERT_TRUE(open_sqlite(directory / "test.db"));
+  RawSqlite(directory / "test.db").run("PRAGMA user_version = 999");
+  const StorageError error = error_of(directory / "test.db");
+  EXPECT_EQ(error.fault, StorageFault::newer_schema);
+  EXPECT_THAT(error.reason, HasSubstr("999"));
+}
+
+TEST(SqliteDatabase, says_which_process_owns_the_file) {
+  TemporaryDirectory directory;
+  auto owner = open_sqlite(directory / "test.db");
+  ASSERT_TRUE(owner);
+  const StorageError error = error_of(directory / "test.db");
+  EXPECT_EQ(error.fault, StorageFault::locked);
+  EXPECT_THAT(error.reason, HasSubstr(std::to_string(getpid())));
+}
+
+TEST(SqliteDatabase, knows_a_locked_file_by_another_name) {
+  TemporaryDirectory directory;
+  auto owner = open_sqlite(directory / "test.db");
+  ASSERT_TRUE(owner);
+  std::filesystem::create_symlink(directory / "test.db", directory / "alias.db");
+  EXPECT_EQ(error_of(directory / "alias.db").fault, StorageFault::locked);
+}
+
+TEST(SqliteDatabase, is_free_again_when_its_owner_is_closed) {
+  TemporaryDirectory directory;
+  ASSERT_TRUE(open_sqlite(directory / "test.db"));
+  EXPECT_TRUE(open_sqlite(directory / "test.db"));
+}
+
+TEST(SqliteDatabase, reads_beside_the_owner_what_is_committed) {
+  TemporaryDirectory directory;
+  auto owner = open_sqlite(directory / "test.db").value();
+  add_samples(*owner);
+  auto reader = open_sqlite_reader(directory / "test.db");
+  ASSERT_TRUE(reader) << reader.error().reason;
+  ASSERT_TRUE(owner->begin());
+  ASSERT_TRUE(owner->append_turn(sample_turn(1, 1)));
+  EXPECT_EQ((*reader)->turn(GameId{1}, 1).value(), std::nullopt);
+  ASSERT_TRUE(owner->commit());
+  EXPECT_EQ((*reader)->turn(GameId{1}, 1).value(), sample_turn(1, 1));
+}
+
+TEST(SqliteDatabase, makes_no_file_for_a_reader) {
+  TemporaryDirectory directory;
+  EXPECT_FALSE(open_sqlite_reader(directory / "test.db"));
+  EXPECT_FALSE(std::filesystem::exists(directory / "test.db"));
+}
+
+TEST(SqliteDatabase, says_which_stored_value_is_unreadable) {
+  TemporaryDirectory directory;
+  auto owner = open_sqlite(directory / "test.db").value();
+  add_samples(*owner);
+  ASSERT_TRUE(owner->begin());
+  ASSERT_TRUE(owner->append_turn(sample_turn(1, 1)));
+  ASSERT_TRUE(owner->commit());
+  RawSqlite(directory / "test.db").run("UPDATE turns SET call_pocket = 'middle'");
+  const auto turn = owner->turn(GameId{1}, 1);
+  ASSERT_FALSE(turn);
+  EXPECT_EQ(turn.error().fault, StorageFault::unreadable);
+  EXPECT_THAT(turn.error().reason, HasSubstr("call_pocket: got middle"));
+}
+
+// The child commits one turn, begins another and is killed.
+void write_and_die(const std::filesystem::path& file) {
+  auto database = open_sqlite(file).value();
+  add_samples(*database);
+  const bool committed = database->begin() && database->append_turn(sample_turn(1, 1)) &&
+                         database->commit() && database->begin() &&
+                         database->append_turn(sample_turn(1, 2));
+  if (committed)
+    std::raise(SIGKILL);
+  _exit(1);
+}
+
+TEST(SqliteDatabase, has_what_was_committed_and_no_more_after_a_kill) {
+  TemporaryDirectory directory;
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0)
+    write_and_die(directory / "test.db");
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  auto database = open_sqlite(directory / "test.db");
+  ASSERT_TRUE(database) << database.error().reason;
+  EXPECT_EQ((*database)->turn(GameId{1}, 1).value(), sample_turn(1, 1));
+  EXPECT_EQ((*database)->turn(GameId{1}, 2).value(), std::nullopt);
+  EXPECT_EQ((*database)->unfinished_games().value().at(0).last_turn, sample_turn(1, 1));
+}
+
+}  // namespace
+}  // namespace poolhall::storage
