@@ -8,8 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "protocol/state_json.hpp"
-#include "protocol/table_json.hpp"
+#include "tests/support/sample_messages.hpp"
 
 namespace poolhall::client {
 namespace {
@@ -17,7 +16,6 @@ namespace {
 using protocol::ErrorCode;
 using protocol::GameId;
 using protocol::Outgoing;
-using protocol::RawJson;
 
 class FakeOutside : public Outside {
  public:
@@ -36,11 +34,6 @@ class FakeOutside : public Outside {
   std::vector<Thought> thoughts;
   std::vector<GameId> woken;
 };
-
-rules::GameState opening() {
-  return rules::new_game({}, *physics::preset_table("olympiad"),
-                         *physics::preset_materials("olympiad"));
-}
 
 class AgentTest : public testing::Test {
  protected:
@@ -84,27 +77,10 @@ class AgentTest : public testing::Test {
     ASSERT_TRUE(agent().is_logged_in());
   }
 
-  void start_game() {
-    protocol::GameStart<Outgoing> start;
-    start.terms.game = GameId{17};
-    start.terms.opponent = "somebody";
-    start.terms.table = RawJson{protocol::encode_table(*physics::preset_table("olympiad"))};
-    start.terms.physics =
-        RawJson{protocol::encode_materials(*physics::preset_materials("olympiad"))};
-    start.terms.noise = protocol::noise_preset("olympiad");
-    start.terms.commitment.text = std::string(64, '0');
-    start.state = RawJson{protocol::encode_state(opening())};
-    ASSERT_FALSE(notify(start));
-  }
+  void start_game() { ASSERT_FALSE(notify(test_support::sample_game_start(GameId{17}))); }
 
   void give_turn(std::uint32_t turn) {
-    ASSERT_FALSE(
-        notify(protocol::GameTurn<Outgoing>{.game = GameId{17},
-                                            .turn = turn,
-                                            .kind = rules::TurnKind::break_shot,
-                                            .state = RawJson{protocol::encode_state(opening())},
-                                            .clock = {600'000, 600'000, {}},
-                                            .legal = protocol::LegalBalls{}}));
+    ASSERT_FALSE(notify(test_support::sample_break_turn(GameId{17}, turn)));
   }
 
   void choose(std::uint32_t turn, std::uint32_t refusals = 0) {
@@ -241,10 +217,7 @@ TEST_F(AgentTest, AcknowledgesTheEndOfAGame) {
   settings_.games = 1;
   log_in();
   start_game();
-  protocol::GameOver over;
-  over.game = GameId{17};
-  over.checksum.text = std::string(64, '0');
-  ASSERT_FALSE(notify(over));
+  ASSERT_FALSE(notify(test_support::sample_game_over(GameId{17})));
   EXPECT_EQ(std::get<protocol::Ack>(last().request).game, GameId{17});
   const auto end = reply(protocol::GameReply{GameId{17}});
   ASSERT_TRUE(end);
