@@ -10,6 +10,7 @@
 #include "sample_records.hpp"
 #include "server/storage/failpoint.hpp"
 #include "server/storage/sqlite_database.hpp"
+#include "tests/support/raw_sqlite.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace poolhall::storage {
@@ -148,22 +149,15 @@ TEST_F(WriterTest, says_that_the_file_is_held_and_stores_everything_when_it_is_f
                  trouble.set_value();
              },
          .retry_first = std::chrono::milliseconds(1)});
-  FILE* other =
-      popen(("sqlite3 '" + (directory_ / "test.db").string() + "' >/dev/null").c_str(), "w");
-  ASSERT_NE(other, nullptr);
-  const std::string marker = directory_ / "held";
-  std::fprintf(other, "BEGIN IMMEDIATE;\n.shell touch '%s'\n", marker.c_str());
-  std::fflush(other);
-  while (!std::filesystem::exists(marker))
-    std::this_thread::yield();
+  test_support::RawSqlite other(directory_ / "test.db");
+  other.run("BEGIN IMMEDIATE");
 
   std::promise<bool> stored;
   ASSERT_EQ(writer_->post(turn(1),
                           [&](const Expected<void>& done) { stored.set_value(done.has_value()); }),
             Posted::accepted);
   trouble.get_future().wait();
-  std::fputs("ROLLBACK;\n", other);
-  pclose(other);
+  other.run("ROLLBACK");
   EXPECT_TRUE(stored.get_future().get());
   writer_->flush();
   const std::lock_guard lock(mutex);
