@@ -17,7 +17,7 @@
 #include <variant>
 
 #include "protocol/codec.hpp"
-#include "tests/support/sample_messages.hpp"
+#include "tests/support/scripted_game.hpp"
 
 namespace poolhall::client {
 namespace {
@@ -109,10 +109,10 @@ TEST_F(ClientTest, PlaysAGameToItsEnd) {
   start();
   Peer peer = accept();
   peer.log_in();
-  peer.notify(test_support::sample_game_start(GameId{17}));
-  peer.notify(test_support::sample_break_turn(GameId{17}, 1));
+  peer.notify(test_support::scripted_start(GameId{17}));
+  peer.notify(test_support::scripted_turn(GameId{17}, 1));
   EXPECT_EQ(peer.expect<protocol::Shot>().turn, 1U);
-  peer.notify(test_support::sample_game_over(GameId{17}));
+  peer.notify(test_support::scripted_over(GameId{17}));
   EXPECT_EQ(peer.expect<protocol::Ack>().game, GameId{17});
   peer.reply(protocol::GameReply{GameId{17}});
   EXPECT_EQ(end_.get().ending, Ending::finished);
@@ -125,8 +125,8 @@ TEST_F(ClientTest, ComesBackWithTheSameTokenAndSendsTheSameShotAgain) {
   first.reply(protocol::HelloReply{});
   const auto token = first.expect<protocol::Register>().token;
   first.reply(protocol::LoginReply{"tester", {}, {}});
-  first.notify(test_support::sample_game_start(GameId{17}));
-  first.notify(test_support::sample_break_turn(GameId{17}, 1));
+  first.notify(test_support::scripted_start(GameId{17}));
+  first.notify(test_support::scripted_turn(GameId{17}, 1));
   const auto shot = first.expect<protocol::Shot>();
   first.close();
 
@@ -135,7 +135,7 @@ TEST_F(ClientTest, ComesBackWithTheSameTokenAndSendsTheSameShotAgain) {
   second.reply(protocol::HelloReply{});
   EXPECT_EQ(second.expect<protocol::Login>().token, token);
   second.reply(protocol::LoginReply{"tester", {}, {}});
-  second.notify(test_support::sample_break_turn(GameId{17}, 1));
+  second.notify(test_support::scripted_turn(GameId{17}, 1));
   EXPECT_EQ(second.expect<protocol::Shot>(), shot);
 }
 
@@ -156,8 +156,8 @@ TEST_F(ClientTest, AnswersTheServersProbesWhileItThinks) {
   }));
   Peer peer = accept();
   peer.log_in();
-  peer.notify(test_support::sample_game_start(GameId{17}));
-  peer.notify(test_support::sample_break_turn(GameId{17}, 1));
+  peer.notify(test_support::scripted_start(GameId{17}));
+  peer.notify(test_support::scripted_turn(GameId{17}, 1));
   peer.notify(protocol::LagProbe{4711});
   EXPECT_EQ(peer.expect<protocol::Lag>().t, 4711);
   may_go_on.set_value();
@@ -174,8 +174,8 @@ TEST_F(ClientTest, ThinksAboutSeveralGamesAtOnce) {
   Peer peer = accept();
   peer.log_in();
   for (const GameId game : {GameId{17}, GameId{18}}) {
-    peer.notify(test_support::sample_game_start(game));
-    peer.notify(test_support::sample_break_turn(game, 1));
+    peer.notify(test_support::scripted_start(game));
+    peer.notify(test_support::scripted_turn(game, 1));
   }
   peer.expect<protocol::Concede>();
   peer.expect<protocol::Concede>();
@@ -192,8 +192,8 @@ TEST_F(ClientTest, HandsOnWhatAPlayerThrows) {
   start(player_from([](const TurnView&) -> Move { throw std::runtime_error("no idea"); }));
   Peer peer = accept();
   peer.log_in();
-  peer.notify(test_support::sample_game_start(GameId{17}));
-  peer.notify(test_support::sample_break_turn(GameId{17}, 1));
+  peer.notify(test_support::scripted_start(GameId{17}));
+  peer.notify(test_support::scripted_turn(GameId{17}, 1));
   EXPECT_THROW(end_.get(), std::runtime_error);
 }
 

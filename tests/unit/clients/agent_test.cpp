@@ -8,7 +8,7 @@
 #include <variant>
 #include <vector>
 
-#include "tests/support/sample_messages.hpp"
+#include "tests/support/scripted_game.hpp"
 
 namespace poolhall::client {
 namespace {
@@ -77,10 +77,10 @@ class AgentTest : public testing::Test {
     ASSERT_TRUE(agent().is_logged_in());
   }
 
-  void start_game() { ASSERT_FALSE(notify(test_support::sample_game_start(GameId{17}))); }
+  void start_game() { ASSERT_FALSE(notify(test_support::scripted_start(GameId{17}))); }
 
   void give_turn(std::uint32_t turn) {
-    ASSERT_FALSE(notify(test_support::sample_break_turn(GameId{17}, turn)));
+    ASSERT_FALSE(notify(test_support::scripted_turn(GameId{17}, turn)));
   }
 
   void choose(std::uint32_t turn, std::uint32_t refusals = 0) {
@@ -217,7 +217,7 @@ TEST_F(AgentTest, AcknowledgesTheEndOfAGame) {
   settings_.games = 1;
   log_in();
   start_game();
-  ASSERT_FALSE(notify(test_support::sample_game_over(GameId{17})));
+  ASSERT_FALSE(notify(test_support::scripted_over(GameId{17})));
   EXPECT_EQ(std::get<protocol::Ack>(last().request).game, GameId{17});
   const auto end = reply(protocol::GameReply{GameId{17}});
   ASSERT_TRUE(end);
