@@ -64,6 +64,13 @@ protocol::ShotParams random_stroke(Dice& dice, double phi, double least, double 
   return shot;
 }
 
+// The cue is raised where it would pass through a rail or a ball.
+void make_possible(RandomShot& shot) {
+  const physics::NearestShot nearest = physics::nearest_possible_shot(
+      protocol::to_physics(shot.shot), shot.balls, shot.table, shot.materials);
+  shot.shot = nearest.shot.given;
+}
+
 }  // namespace
 
 RandomShot random_shot(const RandomShotOrder& order) {
@@ -87,6 +94,7 @@ RandomShot random_shot(const RandomShotOrder& order) {
     phi = phi < 0 ? phi + 360 : phi;
   }
   out.shot = random_stroke(dice, phi, order.least_speed, order.most_speed);
+  make_possible(out);
   return out;
 }
 
@@ -108,6 +116,7 @@ RandomShot random_break(const RandomBreakOrder& order) {
   const double phi = heading(out.balls[0].position, spot) + dice.between(-1, 1);
   out.shot = random_stroke(dice, phi, order.least_speed, order.most_speed);
   out.shot.theta = 0;
+  make_possible(out);
   return out;
 }
 
