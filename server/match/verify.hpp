@@ -27,15 +27,14 @@ struct VerifyReport {
   std::uint64_t games = 0;
   std::uint64_t unfinished = 0;  // of them
   std::uint64_t turns = 0;
-  std::uint64_t shots = 0;              // run again and the same
-  std::uint64_t other_version = 0;      // shots of another physics version: not run again
+  std::uint64_t shots = 0;          // run again and the same
+  std::uint64_t other_version = 0;  // turns of another physics or rules version: chain, and what of
+                                    // them this version can judge
+  std::vector<std::string> structure;   // what the database finds wrong with itself
   std::vector<Difference> differences;  // the first of each game that has one
-};
 
-// The first difference of one game; counts into `report`.
-[[nodiscard]] storage::Expected<void> verify_game(storage::Reader& reader,
-                                                  const storage::GameRecord& game,
-                                                  VerifyReport& report);
+  [[nodiscard]] bool same() const { return structure.empty() && differences.empty(); }
+};
 
 struct VerifyOptions {
   std::optional<protocol::GameId> only{};
@@ -43,5 +42,8 @@ struct VerifyOptions {
 };
 [[nodiscard]] storage::Expected<VerifyReport> verify(storage::Reader& reader,
                                                      const VerifyOptions& options);
+
+// The first difference in one game; counts into `report`.
+void verify_game(storage::Reader& reader, protocol::GameId id, VerifyReport& report);
 
 }  // namespace poolhall::match

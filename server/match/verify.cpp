@@ -1,0 +1,76 @@
+#include "server/match/verify.hpp"
+
+#include "server/match/game_check.hpp"
+
+namespace poolhall::match {
+namespace {
+
+// A value that could not be read: its column stands before the colon.
+Difference unreadable(protocol::GameId game, std::optional<std::uint32_t> turn,
+                      const storage::StorageError& error) {
+  const std::size_t colon = error.reason.find(':');
+  if (error.fault != storage::StorageFault::unreadable || colon == std::string::npos)
+    return {game, turn, "row", error.reason};
+  return {game, turn, error.reason.substr(0, colon), error.reason.substr(colon + 2)};
+}
+
+std::optional<Difference> check_turns(storage::Reader& reader, GameCheck& check,
+                                      protocol::GameId id) {
+  std::optional<Difference> found;
+  const auto read = reader.each_turn(id, [&](const storage::TurnRecord& row) {
+    found = check.turn(row);
+    return !found;
+  });
+  if (!found && !read)
+    found = unreadable(id, check.turns() + 1, read.error());
+  return found;
+}
+
+}  // namespace
+
+void verify_game(storage::Reader& reader, protocol::GameId id, VerifyReport& report) {
+  ++report.games;
+  const auto game = reader.game(id);
+  if (!game || !*game) {
+    report.differences.push_back(game ? Difference{id, std::nullopt, "id", "there is no such game"}
+                                      : unreadable(id, std::nullopt, game.error()));
+    return;
+  }
+  report.unfinished += (*game)->over ? 0 : 1;
+  GameCheck check(**game);
+  std::optional<Difference> found = check.beginning();
+  if (!found)
+    found = check_turns(reader, check, id);
+  if (!found)
+    found = check.end();
+  report.turns += check.turns();
+  report.shots += check.shots_played_again();
+  report.other_version += check.other_version();
+  if (found)
+    report.differences.push_back(std::move(*found));
+}
+
+storage::Expected<VerifyReport> verify(storage::Reader& reader, const VerifyOptions& options) {
+  VerifyReport report;
+  const auto findings = reader.check_structure();
+  if (!findings)
+    return tl::unexpected(findings.error());
+  report.structure = *findings;
+  std::vector<protocol::GameId> games;
+  if (options.only) {
+    games.push_back(*options.only);
+  } else {
+    const auto ids = reader.game_ids();
+    if (!ids)
+      return tl::unexpected(ids.error());
+    games = *ids;
+  }
+  for (const protocol::GameId id : games) {
+    verify_game(reader, id, report);
+    if (options.progress)
+      options.progress(report);
+  }
+  return report;
+}
+
+}  // namespace poolhall::match
