@@ -1,19 +1,35 @@
-// What a server says to an agent in an 8-ball game that has just begun: for tests of clients.
+// At least one message of every kind of the protocol, made from a game that is really played: for
+// round trips, schemas and decoders.
 //
-//   send(encode_notification(sample_game_start(GameId{17}), 1));
-//   send(encode_notification(sample_break_turn(GameId{17}, 1), 2));
+//   for (const protocol::Request& request : sample_requests()) ...
 #pragma once
 
-#include <cstdint>
+#include <vector>
 
+#include "physics/event_log.hpp"
 #include "protocol/messages.hpp"
+#include "rules/referee.hpp"
 
 namespace poolhall::test_support {
 
-[[nodiscard]] rules::GameState sample_opening();
-[[nodiscard]] protocol::GameStart<protocol::Outgoing> sample_game_start(protocol::GameId game);
-[[nodiscard]] protocol::GameTurn<protocol::Outgoing> sample_break_turn(protocol::GameId game,
-                                                                       std::uint32_t turn);
-[[nodiscard]] protocol::GameOver sample_game_over(protocol::GameId game);
+// A break shot of a new game, from its state to its ruling.
+struct PlayedBreak {
+  rules::GameState before;
+  rules::Call call{};
+  physics::Vec2<double> cue_ball{};
+  protocol::ShotParams params{};
+  physics::EventLog<double> events;
+  rules::Ruling ruling;
+};
+[[nodiscard]] PlayedBreak played_break(rules::RuleSet rules);
+
+struct SampleReply {
+  protocol::Method method;
+  protocol::Reply<protocol::Outgoing> reply;
+};
+
+[[nodiscard]] std::vector<protocol::Request> sample_requests();
+[[nodiscard]] std::vector<SampleReply> sample_replies();
+[[nodiscard]] std::vector<protocol::Notification<protocol::Outgoing>> sample_notifications();
 
 }  // namespace poolhall::test_support
