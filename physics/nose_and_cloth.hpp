@@ -109,7 +109,11 @@ class NoseAndCloth {
   }
 
   [[nodiscard]] PressedState<Real> rate(const PressedState<Real>& y, const Grips& grips) const {
-    const PressedForces<Real> f = forces(y, grips);
+    return rate(forces(y, grips), y, grips);
+  }
+
+  [[nodiscard]] PressedState<Real> rate(const PressedForces<Real>& f, const PressedState<Real>& y,
+                                        const Grips& grips) const {
     // A slip that is stuck stays zero to the last bit.
     const Vec2<Real> nose = grips.nose == Grip::slips ? nose_slip_rate(f) : Vec2<Real>{};
     const Vec2<Real> cloth = grips.cloth == Grip::slips ? cloth_slip_rate(f) : Vec2<Real>{};

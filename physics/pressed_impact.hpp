@@ -23,7 +23,8 @@ class PressedImpact {
         restitution_(restitution),
         precision_(few_last_places()),
         slip_floor_(precision_ * speed()),
-        cone_resolution_(square_root(precision_) / Real(64)) {
+        cone_resolution_(square_root(precision_) / Real(64)),
+        final_step_(square_root(precision_)) {
     // A rolling ball has no slip at the cloth, but for rounding (physics.md 7).
     end_slip_below(pressed::cloth_slip, Real(1e-13) * speed());
     end_slip_below(pressed::nose_slip, slip_floor_);
@@ -32,22 +33,20 @@ class PressedImpact {
 
   // False if the bound on the number of steps was met before the end.
   [[nodiscard]] bool run() {
-    const auto speed_left = [this] { return y_[pressed::vx]; };
-    while (speed_left() > precision_) {
-      if (!advance([](const PressedState<Real>& y) { return y[pressed::vx]; }, precision_)) {
+    const Goal stopped{pressed::vx, Real(0), precision_};
+    while (left_to(stopped, y_) > stopped.tolerance) {
+      if (!advance(stopped)) {
         return false;
       }
     }
+    y_[pressed::vx] = Real(0);
     const Real stored = y_[pressed::work];
     const Real kept = (Real(1) - restitution_ * restitution_) * stored;
-    const Real enough = precision_ * stored;
-    const auto work_left = [&kept](const PressedState<Real>& y) {
-      return Real(y[pressed::work] - kept);
-    };
-    y_[pressed::vx] = Real(0);
-    while (work_left(y_) > enough && !is_wedged()) {
-      if (!advance(work_left, enough))
+    const Goal released{pressed::work, kept, precision_ * stored};
+    while (left_to(released, y_) > released.tolerance && !is_wedged()) {
+      if (!advance(released)) {
         return false;
+      }
     }
     return true;
   }
@@ -57,10 +56,20 @@ class PressedImpact {
  private:
   static constexpr int step_limit = 20000;
   static constexpr int attempt_limit = 500;
-  static constexpr int onset_iterations = 500;
+  static constexpr int settling_iterations = 500;
   static constexpr bool is_wide =
       !std::numeric_limits<Real>::is_specialized || std::numeric_limits<Real>::digits > 64;
   static constexpr std::size_t columns = is_wide ? 14 : 6;
+
+  // The end of a phase: one number of the state falls to a value.
+  struct Goal {
+    std::size_t place;
+    Real value;
+    Real tolerance;
+  };
+  [[nodiscard]] static Real left_to(const Goal& goal, const PressedState<Real>& y) {
+    return y[goal.place] - goal.value;
+  }
 
   // A few units in the last place; of the widest types 1e-38 is enough.
   [[nodiscard]] static Real few_last_places() {
@@ -69,6 +78,9 @@ class PressedImpact {
       unit = unit / Real(2);
     return Real(4) * unit;
   }
+
+  // An impulse; the whole impact takes about 2. Error control soon finds a better one.
+  [[nodiscard]] static Real first_step() { return Real(0.25); }
 
   [[nodiscard]] Real speed() const {
     Real sum(0);
@@ -97,30 +109,34 @@ class PressedImpact {
     return y_[pressed::vx] > -precision_ && contacts_.rate(y_, grips_)[pressed::vx] > -precision_;
   }
 
-  // One accepted step, at most to where `left` falls to `enough`.
-  template <class Left>
-  [[nodiscard]] bool advance(const Left& left, const Real& enough) {
+  // One accepted step, at most to the goal.
+  [[nodiscard]] bool advance(const Goal& goal) {
     if (++steps_ > step_limit)
       return false;
     const auto rate = [this](const PressedState<Real>& y) { return contacts_.rate(y, grips_); };
     const Real tolerance = Real(16) * precision_;
-    const Real before = left(y_);
-    Real h = before_slip_ends(rate(y_));
+    const Real before = left_to(goal, y_);
+    const PressedState<Real> slope = rate(y_);
+    Real h = within_slip_scale(slope);
+    // Newton's step to the goal: quadratic convergence, and the secant below if it is too long.
+    if (slope[goal.place] * h < -before) {
+      h = -before / slope[goal.place];
+    }
     for (int i = 0; i < attempt_limit; ++i) {
       const auto step = extrapolated_step<columns>(rate, y_, h);
-      const Real after = left(step.end);
+      const Real after = left_to(goal, step.end);
       if (!(step.error <= tolerance) && h > slip_floor_) {
         h = h / Real(2);
         control_ = h;
-      } else if (after < -enough) {
+      } else if (after < -goal.tolerance) {
         const Real secant = h * before / (before - after);
         h = secant < h ? secant : Real(h / Real(2));
       } else if (h > cone_resolution_ && !is_within_cones(step.end)) {
         h = h / Real(2);
       } else {
-        const Real doubled = h + h;
-        if (step.error <= tolerance / Real(4096) && doubled > control_)
-          control_ = doubled;
+        const Real longer = Real(1.5) * h;
+        if (step.error <= precision_ && longer > control_)
+          control_ = longer;
         accept(step.end);
         return true;
       }
@@ -128,17 +144,18 @@ class PressedImpact {
     return false;
   }
 
-  // The step that error control asks for, but nine tenths of the way to the end of a slip:
-  // friction turns there within no time, so that a slip is followed down to its last places.
-  [[nodiscard]] Real before_slip_ends(const PressedState<Real>& slope) const {
+  // The step that error control asks for, but no longer than a slip's own scale: direction and
+  // friction turn within no time where a slip begins or ends, so that it is followed up from and
+  // down to its last places in a geometric row of steps.
+  [[nodiscard]] Real within_slip_scale(const PressedState<Real>& slope) const {
     Real h = control_;
     for (const std::size_t contact :
          {std::size_t{pressed::nose_slip}, std::size_t{pressed::cloth_slip}}) {
       const Vec2<Real> slip = slip_at(y_, contact);
-      const Real falling = -dot(slip, slip_at(slope, contact));
-      if (!(falling > Real(0)))
+      const Real change = dot(slip, slip_at(slope, contact));
+      if (change == Real(0))
         continue;
-      const Real bound = Real(0.9) * dot(slip, slip) / falling;
+      const Real bound = (change < Real(0) ? Real(-0.9) : Real(4)) * dot(slip, slip) / change;
       if (bound < h)
         h = bound;
     }
@@ -150,23 +167,39 @@ class PressedImpact {
   }
 
   void accept(const PressedState<Real>& end) {
-    const Grips grips = grips_;
-    const PressedState<Real> slope = contacts_.rate(end, grips);
     y_ = end;
-    const bool nose_ended = grips.nose == Grip::slips && has_ended(pressed::nose_slip, slope);
-    const bool cloth_ended = grips.cloth == Grip::slips && has_ended(pressed::cloth_slip, slope);
-    if (nose_ended)
-      set_slip(pressed::nose_slip, {});
-    if (cloth_ended)
-      set_slip(pressed::cloth_slip, {});
-    if (nose_ended || cloth_ended || !is_within_cones(y_))
-      choose_grips();
+    const bool nose_ended = grips_.nose == Grip::slips && ends_slip(pressed::nose_slip);
+    const bool cloth_ended = grips_.cloth == Grip::slips && ends_slip(pressed::cloth_slip);
+    if (!nose_ended && !cloth_ended && is_within_cones(y_)) {
+      return;
+    }
+    choose_grips();
+    control_ = first_step();
   }
 
-  [[nodiscard]] bool has_ended(std::size_t contact, const PressedState<Real>& slope) const {
+  // Ends a slip that is nearly over. Its direction has settled then (and swings ever faster about
+  // where it settles, so that steps would become ever smaller): what is left of it goes in one
+  // straight step with the forces of the settled direction, wrong by the square of its length.
+  [[nodiscard]] bool ends_slip(std::size_t contact) {
     const Vec2<Real> slip = slip_at(y_, contact);
-    return dot(slip, slip) <= slip_floor_ * slip_floor_ &&
-           dot(slip, slip_at(slope, contact)) <= Real(0);
+    const Real size = square_root(Real(dot(slip, slip)));
+    if (size > final_step_)
+      return false;
+    const bool is_nose = contact == pressed::nose_slip;
+    const Onset end = settled(directions(), grips_, {is_nose, !is_nose});
+    const Vec2<Real> direction = is_nose ? end.nose : end.cloth;
+    const PressedState<Real> slope =
+        contacts_.rate(contacts_.forces(end.nose, end.cloth, grips_), y_, grips_);
+    const Real falling = -dot(direction, slip_at(slope, contact));
+    if (!(falling > Real(0)) || size > final_step_ * falling)
+      return false;
+    const Vec2<Real> swing = direction - Real(Real(1) / size) * slip;
+    const bool has_settled = size * square_root(Real(dot(swing, swing))) <= Real(8) * slip_floor_;
+    if (!has_settled && size > slip_floor_)
+      return false;
+    y_ = advanced(y_, Real(size / falling), slope);
+    set_slip(contact, {});
+    return true;
   }
 
   // A contact without slip sticks if the friction that this needs lies in its cone; the first
@@ -200,26 +233,44 @@ class PressedImpact {
     Vec2<Real> nose{};
     Vec2<Real> cloth{};
   };
+  // Which of them are to be found.
+  struct Moving {
+    bool nose = false;
+    bool cloth = false;
+  };
 
-  // A slip begins in the direction d in which it is driven against the friction along -d: the
-  // fixed point of d <- unit(k d + rate(d)), which contracts for k of the size of the friction.
+  [[nodiscard]] Onset directions() const {
+    return {unit_or_zero(slip_at(y_, pressed::nose_slip)),
+            unit_or_zero(slip_at(y_, pressed::cloth_slip))};
+  }
+
   [[nodiscard]] Onset onset_of(const Grips& grips) const {
-    Onset onset{unit_or_zero(slip_at(y_, pressed::nose_slip)),
-                unit_or_zero(slip_at(y_, pressed::cloth_slip))};
     const bool nose_begins = grips.nose == Grip::slips && !has_slip(pressed::nose_slip);
     const bool cloth_begins = grips.cloth == Grip::slips && !has_slip(pressed::cloth_slip);
-    if (!nose_begins && !cloth_begins)
+    return settled(directions(), grips, {nose_begins, cloth_begins});
+  }
+
+  // The directions with which slips begin or end: driven along d against the friction along -d.
+  // They are the fixed points of d <- unit(k d + rate(d)), which contracts for k of the size of
+  // the friction.
+  [[nodiscard]] Onset settled(Onset onset, const Grips& grips, const Moving& moving) const {
+    if (!moving.nose && !moving.cloth) {
       return onset;
-    for (int i = 0; i < onset_iterations; ++i) {
+    }
+    const auto moved = [](const Vec2<Real>& direction, const Vec2<Real>& rate,
+                          const Real& friction) {
+      const Real k = Real(4) * friction + Real(2) * square_root(Real(dot(rate, rate)));
+      return unit_or_zero(k * direction + rate);
+    };
+    for (int i = 0; i < settling_iterations; ++i) {
       const PressedForces<Real> f = contacts_.forces(onset.nose, onset.cloth, grips);
       const Onset last = onset;
-      if (nose_begins) {
-        const Real k = Real(4) * contacts_.nose_friction();
-        onset.nose = unit_or_zero(k * last.nose + contacts_.nose_slip_rate(f));
+      if (moving.nose) {
+        onset.nose = moved(last.nose, contacts_.nose_slip_rate(f), contacts_.nose_friction());
       }
-      if (cloth_begins) {
-        const Real k = Real(4) * contacts_.cloth_friction() * f.cloth_normal;
-        onset.cloth = unit_or_zero(k * last.cloth + contacts_.cloth_slip_rate(f));
+      if (moving.cloth) {
+        const Real friction = contacts_.cloth_friction() * f.cloth_normal;
+        onset.cloth = moved(last.cloth, contacts_.cloth_slip_rate(f), friction);
       }
       if (onset.nose == last.nose && onset.cloth == last.cloth)
         break;
@@ -233,7 +284,8 @@ class PressedImpact {
   Real precision_;
   Real slip_floor_;
   Real cone_resolution_;
-  Real control_{0.25};
+  Real final_step_;  // impulse in which a slip may end in one straight step
+  Real control_ = first_step();
   Grips grips_{};
   int steps_ = 0;
 };
