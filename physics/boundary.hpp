@@ -2,7 +2,7 @@
 // cut off along the mouth lines where there are pockets. Detects, never changes anything.
 //
 //   const auto bounds = boundary<double>(table, radius);
-//   BoundaryHit<double> hit = first_hit(bounds, segment, segment.duration);
+//   BoundaryHit<double> hit = first_hit(bounds, segment, across, along, segment.duration);
 #pragma once
 
 #include <array>
@@ -46,12 +46,17 @@ template <class Real>
 
 enum class HitKind : std::uint8_t { none, pocket, rail };
 
+// A straight rail puts the ball's centre on a line of the frame; a jaw does not.
+enum class Surface : std::uint8_t { straight, jaw };
+
 template <class Real>
 struct BoundaryHit {
   Real t{};  // s after the segment's start
   HitKind kind = HitKind::none;
   RailId rail{};
   PocketId pocket{};
+  Vec2<Real> into{};  // unit vector into the cushion
+  Surface surface = Surface::straight;
 };
 
 // Whether `y` lies between the ends of a side mouth, ends included.
@@ -103,7 +108,7 @@ void hit_long_side(const Boundary<Real>& b, const Segment<Real>& s, bool left, c
       const Real t =
           first_closing(way, below ? Real(-s.velocity.y) : s.velocity.y,
                         below ? Real(-s.acceleration.y) : s.acceleration.y, forever<Real>());
-      keep_earlier(best, {t, HitKind::pocket, {}, pocket});
+      keep_earlier(best, {t, HitKind::pocket, {}, pocket, {}, Surface::straight});
     }
     return;
   }
@@ -113,13 +118,14 @@ void hit_long_side(const Boundary<Real>& b, const Segment<Real>& s, bool left, c
   }
   const Real y = position_at(s, t).y;
   if (in_side_mouth(b, y)) {
-    keep_earlier(best, {t, HitKind::pocket, {}, pocket});
+    keep_earlier(best, {t, HitKind::pocket, {}, pocket, {}, Surface::straight});
     return;
   }
   const bool head = y < b.middle;
   const RailId rail = left ? (head ? RailId::head_left : RailId::foot_left)
                            : (head ? RailId::head_right : RailId::foot_right);
-  keep_earlier(best, {t, HitKind::rail, rail, {}});
+  keep_earlier(best,
+               {t, HitKind::rail, rail, {}, {Real(left ? -1 : 1), Real(0)}, Surface::straight});
 }
 
 // A head or foot rail; the corners' mouth lines have been asked before.
@@ -130,7 +136,9 @@ void hit_short_side(const Segment<Real>& s, bool head, const Real& gap, Boundary
   keep_earlier(best, {first_closing(gap, v, a, forever<Real>()),
                       HitKind::rail,
                       head ? RailId::head : RailId::foot,
-                      {}});
+                      {},
+                      {Real(0), Real(head ? -1 : 1)},
+                      Surface::straight});
 }
 
 // The mouth line of the corner at the low or high end of either axis.
@@ -146,18 +154,16 @@ void hit_corner(const Boundary<Real>& b, const Segment<Real>& s, bool left, bool
       Real(inwards_x(s.acceleration.x) + inwards_y(s.acceleration.y)), forever<Real>());
   const PocketId pocket = head ? (left ? PocketId::head_left : PocketId::head_right)
                                : (left ? PocketId::foot_left : PocketId::foot_right);
-  keep_earlier(best, {t, HitKind::pocket, {}, pocket});
+  keep_earlier(best, {t, HitKind::pocket, {}, pocket, {}, Surface::straight});
 }
 
 // The first rail or mouth that the ball meets within T seconds of its segment. Sides that its
 // path's bounding box does not reach cost one comparison.
 template <class Real>
 [[nodiscard]] BoundaryHit<Real> first_hit(const Boundary<Real>& b, const Segment<Real>& s,
-                                          const Real& T) {
+                                          const Span<Real>& x, const Span<Real>& y, const Real& T) {
   BoundaryHit<Real> best;
   best.t = T;
-  const Span<Real> x = span(s.position.x, s.velocity.x, s.acceleration.x, T);
-  const Span<Real> y = span(s.position.y, s.velocity.y, s.acceleration.y, T);
   const bool left = x.low <= b.low.x, right = x.high >= b.high.x;
   const bool head = y.low <= b.low.y, foot = y.high >= b.high.y;
   if (b.has_mouths) {
@@ -203,24 +209,6 @@ template <class Real>
       break;
   }
   return ball;
-}
-
-// The unit vector from a rail into the table.
-template <class Real>
-[[nodiscard]] Vec2<Real> inward_normal(RailId rail) {
-  switch (rail) {
-    case RailId::head:
-      return {Real(0), Real(1)};
-    case RailId::foot:
-      return {Real(0), Real(-1)};
-    case RailId::head_left:
-    case RailId::foot_left:
-      return {Real(1), Real(0)};
-    case RailId::head_right:
-    case RailId::foot_right:
-      return {Real(-1), Real(0)};
-  }
-  return {};
 }
 
 }  // namespace poolhall::physics

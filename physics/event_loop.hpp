@@ -17,9 +17,10 @@
 #include "physics/ball_collision.hpp"
 #include "physics/boundary.hpp"
 #include "physics/contact_cluster.hpp"
+#include "physics/contact_search.hpp"
 #include "physics/cushion.hpp"
-#include "physics/detect_pair.hpp"
 #include "physics/energy.hpp"
+#include "physics/jaws.hpp"
 #include "physics/simulator.hpp"
 #include "physics/watch.hpp"
 
@@ -32,6 +33,10 @@ class EventLoop {
       : materials_(materials),
         c_(coefficients<Real>(materials)),
         boundary_(boundary<Real>(table, c_.radius)),
+        jaws_(std::holds_alternative<Jaws>(table.pockets)
+                  ? JawTable<Real>(table, materials.ball_radius)
+                  : JawTable<Real>()),
+        has_jaws_(std::holds_alternative<Jaws>(table.pockets)),
         nose_(nose_angle<Real>(table, materials)),
         cluster_(c_) {}
 
@@ -102,9 +107,12 @@ class EventLoop {
   Materials materials_;
   Coefficients<Real> c_;
   Boundary<Real> boundary_;
+  JawTable<Real> jaws_;
+  bool has_jaws_;
   NoseAngle<Real> nose_;
   ContactCluster<Real> cluster_;
   ContactModel contact_ = ContactModel::cluster;
+  RootSolver solver_ = RootSolver::bracketed;
   std::array<Body, max_balls> bodies_{};
   std::size_t count_ = 0;
   Instant<Real> now_{};

@@ -34,10 +34,14 @@ void EventLoop<Real>::begin_motion(std::size_t i, const Ball<Real>& ball) {
   body.hit = {};
   body.hit.t = s.duration;
   if (body.moves) {
-    body.hit = first_hit(boundary_, s, s.duration);
-    const Real T = body.hit.t;
-    body.across = span(s.position.x, s.velocity.x, s.acceleration.x, T);
-    body.along = span(s.position.y, s.velocity.y, s.acceleration.y, T);
+    body.across = span(s.position.x, s.velocity.x, s.acceleration.x, s.duration);
+    body.along = span(s.position.y, s.velocity.y, s.acceleration.y, s.duration);
+    body.hit = has_jaws_ ? jaws_.first_hit(s, body.across, body.along, s.duration, solver_)
+                         : first_hit(boundary_, s, body.across, body.along, s.duration);
+    if (body.hit.kind != HitKind::none) {
+      body.across = span(s.position.x, s.velocity.x, s.acceleration.x, body.hit.t);
+      body.along = span(s.position.y, s.velocity.y, s.acceleration.y, body.hit.t);
+    }
   }
   if (body.hit.t < forever<Real>()) {
     body.own.at = later(now_, body.hit.t);
@@ -97,7 +101,7 @@ void EventLoop<Real>::look_for_contact(std::size_t i, std::size_t k) {
   Body& other = bodies_[k];
   const Instant<Real>& until = one.next.at < other.next.at ? one.next.at : other.next.at;
   const PairMotion<Real> pair = pair_motion(one.motion, other.motion, now_, c_);
-  const std::optional<Real> t = first_contact(pair, Real(until - now_));
+  const std::optional<Real> t = first_contact(pair, Real(until - now_), solver_);
   if (!t) {
     return;
   }
@@ -203,10 +207,13 @@ template <class Watch>
 Go EventLoop<Real>::bounce(std::size_t i, Watch& watch) {
   const Body& body = bodies_[i];
   const RailId rail = body.hit.rail;
-  const Vec2<Real> inward = inward_normal<Real>(rail);
-  const Ball<Real> before = on_rail(boundary_, rail, ball_at(body.motion, body.id, body.hit.t, c_));
+  const Vec2<Real> inward = Real(-1) * body.hit.into;
+  Ball<Real> before = ball_at(body.motion, body.id, body.hit.t, c_);
+  if (body.hit.surface == Surface::straight) {
+    before = on_rail(boundary_, rail, before);
+  }
   const Real closing = -dot(before.velocity, inward);
-  Ball<Real> after = after_cushion(before, Real(-1) * inward, materials_, nose_);
+  Ball<Real> after = after_cushion(before, body.hit.into, materials_, nose_);
   const Real leaving = dot(after.velocity, inward);
   if (leaving < c_.separation_speed) {
     after.velocity = after.velocity + (c_.separation_speed - leaving) * inward;
@@ -361,6 +368,7 @@ template <class Watch>
 Ending EventLoop<Real>::run(const BallSet<Real>& balls, const std::optional<CueShot<Real>>& shot,
                             const SimulationOptions& options, Watch& watch) {
   contact_ = options.contact;
+  solver_ = options.solver;
   place(balls);
   Go go = Go::on;
   if (shot) {

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "physics/boundary.hpp"
+#include "physics/jaws.hpp"
 #include "physics/motion.hpp"
 #include "physics/simulator.hpp"
 
@@ -107,6 +108,16 @@ template <class Real>
 }
 
 template <class Real>
+[[nodiscard]] Expected<void> place_among_jaws(const Ball<Real>& ball, std::size_t i,
+                                              const JawTable<Real>& jaws) {
+  if (!jaws.has_room(ball.position, Real(position_tolerance))) {
+    return refuse(Fault::outside_table, ball_field(i, "x"),
+                  "expected a place on the table, the ball is in a cushion, a pocket or beyond");
+  }
+  return {};
+}
+
+template <class Real>
 [[nodiscard]] Expected<void> no_overlap(const BallSet<Real>& balls, std::size_t i,
                                         const Real& diameter) {
   for (std::size_t k = 0; k < i; ++k) {
@@ -183,6 +194,9 @@ Expected<void> check_scene(const Scene<Real>& scene) {
   }
   const Real radius(scene.materials.ball_radius);
   const Boundary<Real> bounds = boundary(scene.table, radius);
+  const bool has_jaws = std::holds_alternative<Jaws>(scene.table.pockets);
+  const JawTable<Real> jaws =
+      has_jaws ? JawTable<Real>(scene.table, scene.materials.ball_radius) : JawTable<Real>();
   for (std::size_t i = 0; i < scene.balls.count; ++i) {
     const Ball<Real>& ball = scene.balls[i];
     if (number(ball.id) >= max_balls) {
@@ -196,7 +210,9 @@ Expected<void> check_scene(const Scene<Real>& scene) {
       if (auto fine = check::ball_numbers(ball, i, scene.materials.ball_radius); !fine) {
         return fine;
       }
-      if (auto fine = check::ball_place(ball, i, bounds); !fine) {
+      if (auto fine = has_jaws ? check::place_among_jaws(ball, i, jaws)
+                               : check::ball_place(ball, i, bounds);
+          !fine) {
         return fine;
       }
     }
