@@ -84,6 +84,9 @@ class Run {
           {given.velocity.x, given.velocity.y},
           {given.angular_velocity.x, given.angular_velocity.y, given.angular_velocity.z},
           given.pocket};
+      if (ball.id == cue_ball) {
+        ball.position.x += Number(options.cue_ball_shift);
+      }
       balls_.push_back(ball.state == MotionState::pocketed ? ball : classified(ball, constants_));
     }
     since_.resize(balls_.size());

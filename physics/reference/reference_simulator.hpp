@@ -11,6 +11,7 @@
 #pragma once
 
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "physics/event_log.hpp"
@@ -38,6 +39,7 @@ struct ReferenceScene {
 struct ReferenceOptions {
   std::optional<double> t_max{};  // s
   std::size_t event_limit = 100'000;
+  std::string cue_ball_shift = "0";  // m, added to the cue ball's x: decimals beyond a double's
 };
 
 struct ReferenceSimulation {

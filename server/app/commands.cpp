@@ -3,7 +3,9 @@
 namespace poolhall::app {
 
 void add_commands(CLI::App& app, int& exit_code) {
+  add_bench_command(app, exit_code);
   add_bot_command(app, exit_code);
+  add_serve_command(app, exit_code);
   add_simulate_command(app, exit_code);
 }
 

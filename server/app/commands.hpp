@@ -10,7 +10,9 @@ namespace poolhall::app {
 
 void add_commands(CLI::App& app, int& exit_code);
 
+void add_bench_command(CLI::App& app, int& exit_code);
 void add_bot_command(CLI::App& app, int& exit_code);
+void add_serve_command(CLI::App& app, int& exit_code);
 void add_simulate_command(CLI::App& app, int& exit_code);
 
 }  // namespace poolhall::app

@@ -28,8 +28,9 @@ struct RandomShotOrder {
 };
 
 // Balls anywhere on the table at least 0.1 mm apart and off the rails, a cue ball struck in any
-// direction up to 10 mm off centre at an elevation of up to 10 degrees; half the shots are aimed at
-// the middle of a ball within 5 degrees, so that something happens.
+// direction up to 10 mm off centre at an elevation of up to 10 degrees, or more where the cue would
+// touch something; half the shots are aimed at the middle of a ball within 5 degrees, so that
+// something happens.
 [[nodiscard]] RandomShot random_shot(const RandomShotOrder& order);
 
 struct RandomBreakOrder {

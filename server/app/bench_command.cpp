@@ -1,0 +1,47 @@
+// poolhall bench precision | ... : measures, prints tables, writes CSV and SVG.
+#include <CLI/CLI.hpp>
+#include <exception>
+#include <iostream>
+#include <memory>
+#include <string>
+
+#include "server/app/commands.hpp"
+#include "tests/bench/benchmarks.hpp"
+
+namespace poolhall::app {
+
+namespace {
+
+using Benchmark = bool (*)(const bench::BenchOptions&, std::ostream&);
+
+void add_benchmark(CLI::App& parent, int& exit_code, const std::string& name,
+                   const std::string& what, Benchmark run) {
+  auto options = std::make_shared<bench::BenchOptions>();
+  CLI::App* command = parent.add_subcommand(name, what);
+  command->add_option("--out", options->directory, "folder for CSV and SVG files")
+      ->capture_default_str();
+  command
+      ->add_option("--share", options->share, "share of the full number of scenes, for a quick look")
+      ->check(CLI::Range(1e-6, 1000.0))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of the random scenes")->capture_default_str();
+  command->callback([options, run, &exit_code] {
+    try {
+      exit_code = run(*options, std::cout) ? 0 : 1;
+    } catch (const std::exception& error) {
+      std::cerr << "poolhall bench: " << error.what() << '\n';
+      exit_code = 1;
+    }
+  });
+}
+
+}  // namespace
+
+void add_bench_command(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("bench", "measure, and show the figures");
+  command->require_subcommand(1);
+  add_benchmark(*command, exit_code, "precision",
+                "error against run time, against the 100-digit reference", bench::bench_precision);
+}
+
+}  // namespace poolhall::app

@@ -1,0 +1,24 @@
+// The benchmarks behind `poolhall bench`. Each prints its tables, writes them as CSV and its plots
+// as SVG into `directory`, and returns whether everything that it checks held.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+
+namespace poolhall::bench {
+
+struct BenchOptions {
+  std::filesystem::path directory = "bench-results";
+  double share = 1;  // of the full number of scenes, for a quick look
+  std::uint64_t seed = 1;
+};
+
+// At least one, and `share` of `full`.
+[[nodiscard]] std::size_t scaled_count(std::size_t full, const BenchOptions& options);
+
+// Error against run time: every method against the 100-digit reference.
+bool bench_precision(const BenchOptions& options, std::ostream& out);
+
+}  // namespace poolhall::bench

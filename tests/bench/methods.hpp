@@ -1,0 +1,40 @@
+// Ways to compute a shot, to be measured against each other and against the reference.
+//
+//   for (const Method& method : event_methods()) { Measured m = method.run(shot, truth); ... }
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "tests/bench/against_reference.hpp"
+#include "tests/support/random_shots.hpp"
+
+namespace poolhall::bench {
+
+struct Measured {
+  double microseconds = 0;  // the shot alone, log off, the least of three runs
+  bool same_sequence = false;
+  bool same_outcome = false;     // the same balls in the same pockets
+  double time_error = 0;         // s, of the events, where the sequence is the same
+  std::vector<double> position;  // m, of every ball that lies on the table in both
+};
+
+struct Method {
+  std::string family;  // one line of the diagram
+  std::string name;    // with its step or precision
+  std::function<Measured(const test_support::RandomShot&,
+                         const physics::reference::ReferenceSimulation&)>
+      run;
+};
+
+// The event method in double and long double with each root solver.
+[[nodiscard]] std::vector<Method> event_methods();
+// The paper's discrete scheme, Euler, Verlet, Runge-Kutta at five steps each, Dormand-Prince at
+// five tolerances.
+[[nodiscard]] std::vector<Method> stepping_methods();
+
+[[nodiscard]] physics::reference::ReferenceScene reference_scene(
+    const test_support::RandomShot& shot);
+
+}  // namespace poolhall::bench
