@@ -134,7 +134,9 @@ class Arena final : public Lobby {
   std::map<storage::AgentId, std::vector<protocol::GameId>> games_of_;
   std::map<storage::AgentId, Unacknowledged> unacknowledged_;
   std::unordered_map<std::uint64_t, std::shared_ptr<Session>> sessions_;
-  std::vector<storage::UnfinishedGame> unfinished_;  // until begin()
+  std::vector<storage::UnfinishedGame> unfinished_;          // until begin()
+  std::map<storage::AgentId, std::uint64_t> house_choices_;  // when each was chosen last
+  std::uint64_t house_choice_ = 0;
   std::uint64_t next_connection_ = 1;
   std::uint64_t games_over_ = 0;
   bool storage_in_trouble_ = false;

@@ -91,6 +91,7 @@ void Arena::add_agent(const std::shared_ptr<Session>& session, const std::string
           return;
         }
         book_.find(id)->stored = true;
+        unacknowledged_[id].read = true;
         let_in(session, id, protocol::Hex256{token});
         tournaments_.agent_enrolled();
       });
@@ -119,6 +120,7 @@ void Arena::let_in(const std::shared_ptr<Session>& session, storage::AgentId age
   }
   if (unacknowledged_[agent].read) {
     bind(session, *known, std::move(token));
+    session->resume();
     return;
   }
   finished_.unacknowledged(
@@ -244,30 +246,39 @@ Agent& Arena::house_agent(const std::string& name, const HousePlayer& player) {
   return *agent;
 }
 
-// One process a game as long as the bound allows, then the least busy one.
+// One process a game as long as the bound allows, then the least busy one; of two as busy the one
+// that was chosen longer ago, for a game shows only once it is stored.
 std::optional<storage::AgentId> Arena::house_opponent(const std::string& bot) {
   const auto& known = settings_.house_bots;
   if (std::find(known.begin(), known.end(), bot) == known.end()) {
     return std::nullopt;
   }
   std::optional<storage::AgentId> least;
-  std::size_t least_games = 0;
-  for (std::uint32_t number = 1;; ++number) {
+  std::pair<std::size_t, std::uint64_t> least_busy{};
+  for (std::uint32_t number = 1; number <= bots_.bound(); ++number) {
     const std::string name = number == 1 ? "house:" + bot : fmt::format("house:{}.{}", bot, number);
     const Agent* agent = book_.named(name);
+    if (agent == nullptr && !(bots_.full() && least)) {
+      agent = &house_agent(name, {.bot = bot});
+    }
     if (agent == nullptr) {
-      return bots_.full() && least ? least : house_agent(name, {.bot = bot}).id();
+      break;
     }
     const auto own = games_of_.find(agent->id());
-    const std::size_t games = own == games_of_.end() ? 0 : own->second.size();
-    if (games == 0) {
-      return agent->id();
-    }
-    if (!least || games < least_games) {
+    const std::pair busy{own == games_of_.end() ? 0 : own->second.size(),
+                         house_choices_[agent->id()]};
+    if (!least || busy < least_busy) {
       least = agent->id();
-      least_games = games;
+      least_busy = busy;
+    }
+    if (busy.first == 0 && busy.second == 0) {
+      break;
     }
   }
+  if (least) {
+    house_choices_[*least] = ++house_choice_;
+  }
+  return least;
 }
 
 }  // namespace poolhall::net

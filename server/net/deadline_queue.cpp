@@ -2,13 +2,10 @@
 
 namespace poolhall::net {
 
-Deadline::Deadline(Deadline&& other) noexcept
-    : queue_(std::exchange(other.queue_, nullptr)), key_(other.key_) {}
-
 Deadline& Deadline::operator=(Deadline&& other) noexcept {
   if (this != &other) {
     cancel();
-    queue_ = std::exchange(other.queue_, nullptr);
+    actions_ = std::move(other.actions_);
     key_ = other.key_;
   }
   return *this;
@@ -19,31 +16,26 @@ Deadline::~Deadline() {
 }
 
 void Deadline::cancel() {
-  if (queue_ != nullptr) {
-    queue_->actions_.erase(key_);
-    queue_ = nullptr;
+  if (const auto actions = actions_.lock()) {
+    // What the action holds may own this deadline: let go of it last.
+    const auto action = actions->extract(key_);
   }
+  actions_.reset();
 }
 
 Deadline DeadlineQueue::at(SteadyTime when, std::function<void()> action) {
   const Deadline::Key key{when, next_++};
-  actions_.emplace(key, std::move(action));
+  actions_->emplace(key, std::move(action));
   if (when < armed_for_) {
     arm();
   }
-  return Deadline{*this, key};
-}
-
-void DeadlineQueue::clear() {
-  actions_.clear();
-  armed_for_ = SteadyTime::max();
-  timer_.cancel();
+  return Deadline{actions_, key};
 }
 
 void DeadlineQueue::arm() {
   // A cancelled deadline leaves the timer set: it then wakes for nothing once.
-  armed_for_ = actions_.empty() ? SteadyTime::max() : actions_.begin()->first.first;
-  if (actions_.empty()) {
+  armed_for_ = actions_->empty() ? SteadyTime::max() : actions_->begin()->first.first;
+  if (actions_->empty()) {
     return;
   }
   timer_.expires_at(armed_for_);
@@ -57,8 +49,8 @@ void DeadlineQueue::arm() {
 void DeadlineQueue::run_due() {
   armed_for_ = SteadyTime::min();  // `at` leaves the arming to the end of this function
   const SteadyTime now = std::chrono::steady_clock::now();
-  while (!actions_.empty() && actions_.begin()->first.first <= now) {
-    auto node = actions_.extract(actions_.begin());
+  while (!actions_->empty() && actions_->begin()->first.first <= now) {
+    const auto node = actions_->extract(actions_->begin());
     node.mapped()();
   }
   arm();

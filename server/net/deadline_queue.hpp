@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <utility>
 
 namespace poolhall::net {
@@ -19,42 +20,41 @@ using SteadyTime = std::chrono::steady_clock::time_point;
 
 class DeadlineQueue;
 
+// May outlive its queue.
 class Deadline {
  public:
   Deadline() = default;
-  Deadline(Deadline&& other) noexcept;
+  Deadline(Deadline&& other) noexcept = default;
   Deadline& operator=(Deadline&& other) noexcept;
   ~Deadline();
 
   void cancel();
-  [[nodiscard]] bool is_set() const { return queue_ != nullptr; }
+  // Given and not cancelled; it may have run.
+  [[nodiscard]] bool is_set() const { return !actions_.expired(); }
 
  private:
   friend class DeadlineQueue;
   using Key = std::pair<SteadyTime, std::uint64_t>;
-  Deadline(DeadlineQueue& queue, Key key) : queue_(&queue), key_(key) {}
+  using Actions = std::map<Key, std::function<void()>>;
+  Deadline(std::weak_ptr<Actions> actions, Key key) : actions_(std::move(actions)), key_(key) {}
 
-  DeadlineQueue* queue_ = nullptr;
+  std::weak_ptr<Actions> actions_;
   Key key_{};
 };
 
-// Outlives the deadlines it gave.
 class DeadlineQueue {
  public:
   explicit DeadlineQueue(boost::asio::io_context& io) : timer_(io) {}
 
   // `action` runs on the network thread, not before `when`; once at most.
   [[nodiscard]] Deadline at(SteadyTime when, std::function<void()> action);
-  // Forgets all; nothing runs any more.
-  void clear();
 
  private:
-  friend class Deadline;
   void arm();
   void run_due();
 
   boost::asio::steady_timer timer_;
-  std::map<Deadline::Key, std::function<void()>> actions_;
+  std::shared_ptr<Deadline::Actions> actions_ = std::make_shared<Deadline::Actions>();
   std::uint64_t next_ = 0;
   SteadyTime armed_for_ = SteadyTime::max();
 };

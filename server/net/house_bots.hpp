@@ -57,6 +57,7 @@ class HouseBots {
   void stop();
 
   [[nodiscard]] std::size_t running() const;
+  [[nodiscard]] std::uint32_t bound() const { return settings_.bound; }
   [[nodiscard]] bool full() const { return running() >= settings_.bound; }
 
  private:

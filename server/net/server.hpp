@@ -12,6 +12,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -36,6 +37,7 @@ struct ServerOptions {
   std::optional<std::filesystem::path> admin_token_file{};
   Signals signals = Signals::handled;
   std::filesystem::path program = "/proc/self/exe";  // that plays house bots: `program bot NAME`
+  std::vector<std::string> house_bots{"random", "greedy"};  // that may be challenged
 };
 
 class Server {

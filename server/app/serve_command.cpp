@@ -1,0 +1,116 @@
+// `poolhall serve`: the tournament server.
+#include <CLI/CLI.hpp>
+
+#include <spdlog/sinks/stdout_color_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <boost/asio/ip/address.hpp>
+#include <csignal>
+#include <iostream>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "clients/bots/house_bots.hpp"
+#include "server/app/commands.hpp"
+#include "server/net/server.hpp"
+#include "server/settings/server_settings.hpp"
+
+namespace poolhall::app {
+namespace {
+
+struct ServeArguments {
+  std::string config;
+  std::optional<std::string> listen;
+  std::optional<std::string> http;
+  std::optional<std::string> database;
+  std::optional<std::string> admin_token_file;
+  std::optional<std::string> ready_file;
+  bool log_json = false;
+  bool plain_beyond_loopback = false;
+};
+
+int fail(const std::string& reason, int code) {
+  std::cerr << "poolhall serve: " << reason << '\n';
+  return code;
+}
+
+bool is_loopback(const std::string& listen) {
+  const auto endpoint = net::parse_endpoint(listen);
+  boost::system::error_code error;
+  return endpoint && boost::asio::ip::make_address(endpoint->host, error).is_loopback();
+}
+
+// One line an event; JSON for machines. Nothing that is logged contains a token.
+void set_up_log(const settings::LogSettings& log) {
+  spdlog::set_default_logger(spdlog::stderr_color_mt("poolhall"));
+  spdlog::set_level(spdlog::level::from_str(log.level == "warning" ? "warn" : log.level));
+  if (log.json) {
+    spdlog::set_pattern(R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z","level":"%l","message":"%v"})");
+  } else {
+    spdlog::set_pattern("%Y-%m-%d %H:%M:%S.%e %^%l%$ %v");
+  }
+}
+
+void override_with(const ServeArguments& arguments, settings::ServerSettings& settings) {
+  settings.listen = arguments.listen.value_or(settings.listen);
+  settings.http = arguments.http.value_or(settings.http);
+  settings.database = arguments.database.value_or(settings.database);
+  settings.log.json = settings.log.json || arguments.log_json;
+}
+
+int run_server(const ServeArguments& arguments) {
+  net::ServerOptions options;
+  if (!arguments.config.empty()) {
+    const auto loaded = settings::load_server_settings(arguments.config);
+    if (!loaded) {
+      return fail(settings::text(loaded.error()), 2);
+    }
+    options.settings = *loaded;
+  }
+  override_with(arguments, options.settings);
+  if (!net::parse_endpoint(options.settings.listen)) {
+    return fail("--listen: got \"" + options.settings.listen + "\", expected HOST:PORT", 2);
+  }
+  if (!is_loopback(options.settings.listen) && !arguments.plain_beyond_loopback) {
+    return fail(options.settings.listen +
+                    " is open to others and not encrypted; --plain-beyond-loopback allows it",
+                2);
+  }
+  if (arguments.ready_file) {
+    options.ready_file = *arguments.ready_file;
+  }
+  if (arguments.admin_token_file) {
+    options.admin_token_file = *arguments.admin_token_file;
+  }
+  options.house_bots = bots::house_bot_names();
+  std::signal(SIGPIPE, SIG_IGN);  // whoever read the log may go, games do not end for that
+  set_up_log(options.settings.log);
+  net::Server server(std::move(options));
+  if (const auto started = server.start(); !started) {
+    return fail(started.error(), 1);
+  }
+  return server.run();
+}
+
+}  // namespace
+
+void add_serve_command(CLI::App& app, int& exit_code) {
+  const auto arguments = std::make_shared<ServeArguments>();
+  CLI::App* command = app.add_subcommand("serve", "Host games and tournaments");
+  command->add_option("--config", arguments->config, "Settings file (config/poolhall.toml)");
+  command->add_option("--listen", arguments->listen,
+                      "Agents' port, HOST:PORT; port 0 picks a free one");
+  command->add_option("--http", arguments->http, "Page's port, HOST:PORT");
+  command->add_option("--db", arguments->database, "Database file");
+  command->add_option("--admin-token-file", arguments->admin_token_file,
+                      "File with the token of admin calls");
+  command->add_option("--ready-file", arguments->ready_file,
+                      "Written when the server listens: addresses and process id as JSON");
+  command->add_flag("--log-json", arguments->log_json, "Log one JSON object a line");
+  command->add_flag("--plain-beyond-loopback", arguments->plain_beyond_loopback,
+                    "Allow unencrypted connections from other machines");
+  command->callback([arguments, &exit_code] { exit_code = run_server(*arguments); });
+}
+
+}  // namespace poolhall::app

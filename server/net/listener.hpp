@@ -1,0 +1,64 @@
+// Accepts connections, counts them, and goes on accepting whatever happens: refusals are said in
+// the protocol, and running out of file descriptors is waited out.
+//
+//   Listener listener{io, limits, [&](tcp::socket socket, auto gone) { arena.accept(...); }};
+//   if (auto bound = listener.open(endpoint); !bound) die(bound.error());
+//   listener.start();
+#pragma once
+
+#include <boost/asio/awaitable.hpp>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/steady_timer.hpp>
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include <tl/expected.hpp>
+
+#include "protocol/errors.hpp"
+#include "protocol/limits.hpp"
+#include "server/net/server.hpp"
+
+namespace poolhall::net {
+
+class Listener {
+ public:
+  // `gone` is to be called when the socket has been closed.
+  using Accept =
+      std::function<void(boost::asio::ip::tcp::socket socket, std::function<void()> gone)>;
+
+  Listener(boost::asio::io_context& io, const protocol::Limits& limits, Accept accept);
+  ~Listener();
+  Listener(const Listener&) = delete;
+  Listener& operator=(const Listener&) = delete;
+
+  // The error is one line for a person: "127.0.0.1:7777: Address already in use".
+  [[nodiscard]] tl::expected<void, std::string> open(const Endpoint& endpoint);
+  void start();
+  void stop();
+  // With the port that the system picked.
+  [[nodiscard]] Endpoint endpoint() const;
+  [[nodiscard]] std::uint64_t refused() const { return refused_; }
+
+ private:
+  boost::asio::awaitable<void> accept_loop();
+  boost::asio::awaitable<void> out_of_descriptors();
+  void accepted(boost::asio::ip::tcp::socket socket);
+  void refuse(boost::asio::ip::tcp::socket socket, const protocol::Error& error);
+  void reserve();
+
+  boost::asio::io_context& io_;
+  const protocol::Limits& limits_;
+  Accept accept_;
+  boost::asio::ip::tcp::acceptor acceptor_;
+  boost::asio::steady_timer pause_;
+  int reserved_ = -1;  // a descriptor to give up when there are no others
+  std::size_t open_ = 0;
+  std::uint64_t refused_ = 0;
+  std::map<boost::asio::ip::address, std::uint32_t> per_address_;
+};
+
+}  // namespace poolhall::net

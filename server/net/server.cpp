@@ -1,0 +1,274 @@
+#include "server/net/server.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/post.hpp>
+#include <boost/asio/signal_set.hpp>
+#include <boost/asio/thread_pool.hpp>
+#include <charconv>
+#include <fstream>
+#include <thread>
+#include <utility>
+
+#include "server/net/arena.hpp"
+#include "server/net/listener.hpp"
+#include "server/net/socket_options.hpp"
+#include "server/storage/sqlite_database.hpp"
+
+namespace poolhall::net {
+
+namespace asio = boost::asio;
+
+namespace {
+
+std::size_t worker_count(std::uint32_t wanted) {
+  return wanted > 0 ? wanted : std::max(1U, std::thread::hardware_concurrency());
+}
+
+ArenaSettings arena_settings(const ServerOptions& options) {
+  ArenaSettings settings;
+  settings.limits = options.settings.limits;
+  settings.name = options.settings.name;
+  settings.registration =
+      options.settings.registration == "closed" ? Registration::closed : Registration::open;
+  settings.house_bots = options.house_bots;
+  return settings;
+}
+
+// Where bots of the house connect: an address that means "any" is reached by loopback.
+Endpoint reachable(Endpoint endpoint) {
+  if (endpoint.host == "0.0.0.0") {
+    endpoint.host = "127.0.0.1";
+  } else if (endpoint.host == "::") {
+    endpoint.host = "::1";
+  }
+  return endpoint;
+}
+
+tl::expected<Endpoint, std::string> endpoint_of(const std::string& text) {
+  if (const auto endpoint = parse_endpoint(text)) {
+    return *endpoint;
+  }
+  return tl::unexpected(fmt::format("{}: expected HOST:PORT", text));
+}
+
+// Whole or not at all: whoever waits for the file never sees half of it.
+tl::expected<void, std::string> write_ready_file(const std::filesystem::path& file,
+                                                 const std::string& text) {
+  const std::filesystem::path part = file.string() + ".part";
+  std::ofstream out(part);
+  out << text;
+  out.close();
+  std::error_code error;
+  if (out) {
+    std::filesystem::rename(part, file, error);
+  }
+  if (!out || error) {
+    return tl::unexpected(file.string() + ": the ready file cannot be written");
+  }
+  return {};
+}
+
+}  // namespace
+
+std::optional<Endpoint> parse_endpoint(const std::string& text) {
+  const auto colon = text.rfind(':');
+  if (colon == std::string::npos || colon == 0) {
+    return std::nullopt;
+  }
+  Endpoint endpoint{text.substr(0, colon), 0};
+  if (endpoint.host.size() > 2 && endpoint.host.front() == '[' && endpoint.host.back() == ']') {
+    endpoint.host = endpoint.host.substr(1, endpoint.host.size() - 2);
+  }
+  if (endpoint.host == "localhost") {
+    endpoint.host = "127.0.0.1";
+  }
+  const char* const first = text.data() + colon + 1;
+  const char* const last = text.data() + text.size();
+  const auto [end, error] = std::from_chars(first, last, endpoint.port);
+  if (error != std::errc{} || end != last || first == last) {
+    return std::nullopt;
+  }
+  return endpoint;
+}
+
+std::string to_string(const Endpoint& endpoint) {
+  const bool v6 = endpoint.host.find(':') != std::string::npos;
+  return v6 ? fmt::format("[{}]:{}", endpoint.host, endpoint.port)
+            : fmt::format("{}:{}", endpoint.host, endpoint.port);
+}
+
+class Server::Impl {
+ public:
+  explicit Impl(ServerOptions options)
+      : options_(std::move(options)), workers_(worker_count(options_.settings.worker_threads)) {}
+
+  ~Impl() { shut(); }
+  Impl(const Impl&) = delete;
+  Impl& operator=(const Impl&) = delete;
+
+  tl::expected<void, std::string> start();
+  int run();
+  void stop() {
+    asio::post(io_, [this] { begin_stop(); });
+  }
+  void post(std::function<void(MatchHost&)> work) {
+    asio::post(io_, [this, work = std::move(work)] { work(arena_->host()); });
+  }
+  [[nodiscard]] Endpoint agents() const { return agents_; }
+
+ private:
+  tl::expected<void, std::string> open_database();
+  tl::expected<void, std::string> listen();
+  void watch_signals();
+  void begin_stop();
+  void shut();
+
+  ServerOptions options_;
+  asio::io_context io_{1};
+  asio::thread_pool workers_;
+  std::unique_ptr<storage::Writer> writer_;
+  std::unique_ptr<Archive> archive_;
+  std::unique_ptr<Arena> arena_;
+  std::unique_ptr<Listener> listener_;
+  std::unique_ptr<asio::signal_set> signals_;
+  Endpoint agents_;
+  bool stopping_ = false;
+  bool shut_ = false;
+  bool said_ready_ = false;
+};
+
+tl::expected<void, std::string> Server::Impl::start() {
+  static_cast<void>(raise_descriptor_limit());
+  if (auto opened = open_database(); !opened) {
+    return opened;
+  }
+  if (auto listening = listen(); !listening) {
+    return listening;
+  }
+  if (options_.signals == Signals::handled) {
+    watch_signals();
+  }
+  arena_->begin(
+      {options_.program, to_string(reachable(agents_)), options_.settings.max_house_bots});
+  listener_->start();
+  spdlog::info("agents on {}, database {}, process {}", to_string(agents_),
+               options_.settings.database, ::getpid());
+  if (options_.ready_file) {
+    said_ready_ = true;
+    return write_ready_file(*options_.ready_file,
+                            fmt::format("{{\"agents\": \"{}\", \"http\": null, \"pid\": {}}}\n",
+                                        to_string(agents_), ::getpid()));
+  }
+  return {};
+}
+
+tl::expected<void, std::string> Server::Impl::open_database() {
+  const std::filesystem::path file = options_.settings.database;
+  auto database = storage::open_sqlite(file);
+  if (!database) {
+    return tl::unexpected(database.error().reason);
+  }
+  storage::WriterOptions writing;
+  writing.deliver = [this](std::function<void()> work) { asio::post(io_, std::move(work)); };
+  writing.on_health = [this](const storage::WriterHealth& health) {
+    if (arena_) {
+      arena_->storage_health(health);
+    }
+  };
+  writer_ = std::make_unique<storage::Writer>(std::move(*database), std::move(writing));
+  archive_ = std::make_unique<Archive>(file, io_, workers_);
+  arena_ = std::make_unique<Arena>(io_, workers_, *writer_, *archive_, arena_settings(options_));
+  const auto reader = storage::open_sqlite_reader(file);
+  if (!reader) {
+    return tl::unexpected(reader.error().reason);
+  }
+  if (auto restored = arena_->restore(**reader); !restored) {
+    return tl::unexpected(restored.error().reason);
+  }
+  return {};
+}
+
+tl::expected<void, std::string> Server::Impl::listen() {
+  const auto endpoint = endpoint_of(options_.settings.listen);
+  if (!endpoint) {
+    return tl::unexpected(endpoint.error());
+  }
+  listener_ =
+      std::make_unique<Listener>(io_, options_.settings.limits,
+                                 [this](asio::ip::tcp::socket socket, std::function<void()> gone) {
+                                   arena_->accept(std::move(socket), std::move(gone));
+                                 });
+  if (auto bound = listener_->open(*endpoint); !bound) {
+    return bound;
+  }
+  agents_ = listener_->endpoint();
+  return {};
+}
+
+void Server::Impl::watch_signals() {
+  signals_ = std::make_unique<asio::signal_set>(io_, SIGTERM, SIGINT);
+  signals_->async_wait([this](const boost::system::error_code& error, int) {
+    if (!error) {
+      begin_stop();
+    }
+  });
+}
+
+void Server::Impl::begin_stop() {
+  if (std::exchange(stopping_, true)) {
+    return;
+  }
+  listener_->stop();
+  arena_->stop([this] { io_.stop(); });
+}
+
+int Server::Impl::run() {
+  const auto work = asio::make_work_guard(io_);
+  io_.run();
+  shut();
+  return 0;
+}
+
+// What has been told is stored already; what has not is stored now or never told.
+void Server::Impl::shut() {
+  if (std::exchange(shut_, true)) {
+    return;
+  }
+  workers_.join();
+  if (writer_) {
+    writer_->stop();
+  }
+  if (said_ready_) {
+    std::error_code ignored;
+    std::filesystem::remove(*options_.ready_file, ignored);
+  }
+}
+
+Server::Server(ServerOptions options) : impl_(std::make_unique<Impl>(std::move(options))) {}
+Server::~Server() = default;
+
+tl::expected<void, std::string> Server::start() {
+  return impl_->start();
+}
+int Server::run() {
+  return impl_->run();
+}
+void Server::stop() {
+  impl_->stop();
+}
+void Server::post(std::function<void(MatchHost&)> work) {
+  impl_->post(std::move(work));
+}
+Endpoint Server::agents_endpoint() const {
+  return impl_->agents();
+}
+std::optional<Endpoint> Server::http_endpoint() const {
+  return std::nullopt;
+}
+
+}  // namespace poolhall::net
