@@ -155,7 +155,12 @@ class NoseAndCloth {
   // The nose's slip stays zero while the cloth slips along `direction`.
   [[nodiscard]] PressedForces<Real> nose_sticks(const Vec2<Real>& direction) const {
     const Real drag = cross_x_ * cloth_friction_ * direction.x;
-    Vec2<Real> nose{(sine_ * cosine_ + drag * sine_) / (stiff_nose_ - drag * cosine_), Real(0)};
+    const Real resistance = stiff_nose_ - drag * cosine_;
+    if (!(resistance > Real(0))) {
+      // Friction at the cloth would drive the slip on however hard the nose holds: no such balance.
+      return {{Real(4) * nose_friction_ + Real(1), Real(0)}, {}, Real(0)};
+    }
+    Vec2<Real> nose{(sine_ * cosine_ + drag * sine_) / resistance, Real(0)};
     Real normal = sine_ + cosine_ * nose.x;
     if (!(normal > Real(0))) {
       normal = Real(0);

@@ -31,24 +31,11 @@ class PressedImpact {
     choose_grips();
   }
 
-  // False if the bound on the number of steps was met before the end.
+  // False if the bound on the number of steps was met before the end, or if energy was gained, as
+  // frictions beyond all experience can make a rigid ball do.
   [[nodiscard]] bool run() {
-    const Goal stopped{pressed::vx, Real(0), precision_};
-    while (left_to(stopped, y_) > stopped.tolerance) {
-      if (!advance(stopped)) {
-        return false;
-      }
-    }
-    y_[pressed::vx] = Real(0);
-    const Real stored = y_[pressed::work];
-    const Real kept = (Real(1) - restitution_ * restitution_) * stored;
-    const Goal released{pressed::work, kept, precision_ * stored};
-    while (left_to(released, y_) > released.tolerance && !is_wedged()) {
-      if (!advance(released)) {
-        return false;
-      }
-    }
-    return true;
+    const Real at_start = energy();
+    return compress() && restitute() && energy() <= at_start * (Real(1) + Real(64) * precision_);
   }
 
   [[nodiscard]] const PressedState<Real>& state() const { return y_; }
@@ -60,6 +47,19 @@ class PressedImpact {
   static constexpr bool is_wide =
       !std::numeric_limits<Real>::is_specialized || std::numeric_limits<Real>::digits > 64;
   static constexpr std::size_t columns = is_wide ? 14 : 6;
+  // Below this slip a beginning slip is taken to have its settled direction.
+  static constexpr double creeping_slip = 1e-7;
+
+  // Directions of slip, also of one that is about to begin.
+  struct Onset {
+    Vec2<Real> nose{};
+    Vec2<Real> cloth{};
+  };
+  // Which of them are to be found.
+  struct Moving {
+    bool nose = false;
+    bool cloth = false;
+  };
 
   // The end of a phase: one number of the state falls to a value.
   struct Goal {
@@ -69,6 +69,38 @@ class PressedImpact {
   };
   [[nodiscard]] static Real left_to(const Goal& goal, const PressedState<Real>& y) {
     return y[goal.place] - goal.value;
+  }
+
+  [[nodiscard]] bool compress() {
+    const Goal stopped{pressed::vx, Real(0), precision_};
+    while (left_to(stopped, y_) > stopped.tolerance && !is_stuck()) {
+      if (!advance(stopped)) {
+        return false;
+      }
+    }
+    y_[pressed::vx] = Real(0);
+    return true;
+  }
+
+  // Until e^2 of the work is given back, or the ball is wedged.
+  [[nodiscard]] bool restitute() {
+    const Real stored = y_[pressed::work];
+    const Real kept = (Real(1) - restitution_ * restitution_) * stored;
+    const Goal released{pressed::work, kept, Real(8) * precision_ * stored};
+    while (left_to(released, y_) > released.tolerance && !is_wedged()) {
+      if (!advance(released)) {
+        return false;
+      }
+    }
+    return true;
+  }
+
+  // Twice the kinetic energy over the mass; I = 2/5 m R^2.
+  [[nodiscard]] Real energy() const {
+    return y_[pressed::vx] * y_[pressed::vx] + y_[pressed::vy] * y_[pressed::vy] +
+           Real(0.4) * (y_[pressed::spin_x] * y_[pressed::spin_x] +
+                        y_[pressed::spin_y] * y_[pressed::spin_y] +
+                        y_[pressed::spin_z] * y_[pressed::spin_z]);
   }
 
   // A few units in the last place; of the widest types 1e-38 is enough.
@@ -104,16 +136,29 @@ class PressedImpact {
       set_slip(contact, {});
   }
 
+  // With both contacts stuck the ball stands still.
+  [[nodiscard]] bool is_stuck() const {
+    return grips_.nose == Grip::sticks && grips_.cloth == Grip::sticks;
+  }
+
   // Nothing moves the ball back out although the nose presses.
   [[nodiscard]] bool is_wedged() const {
-    return y_[pressed::vx] > -precision_ && contacts_.rate(y_, grips_)[pressed::vx] > -precision_;
+    return is_stuck() || (y_[pressed::vx] > -precision_ && rate_of(y_)[pressed::vx] > -precision_);
+  }
+
+  [[nodiscard]] PressedState<Real> rate_of(const PressedState<Real>& y) const {
+    if (!creeps_.nose && !creeps_.cloth) {
+      return contacts_.rate(y, grips_);
+    }
+    const Onset onset = settled(directions(y), grips_, creeps_);
+    return contacts_.rate(contacts_.forces(onset.nose, onset.cloth, grips_), y, grips_);
   }
 
   // One accepted step, at most to the goal.
   [[nodiscard]] bool advance(const Goal& goal) {
     if (++steps_ > step_limit)
       return false;
-    const auto rate = [this](const PressedState<Real>& y) { return contacts_.rate(y, grips_); };
+    const auto rate = [this](const PressedState<Real>& y) { return rate_of(y); };
     const Real tolerance = Real(16) * precision_;
     const Real before = left_to(goal, y_);
     const PressedState<Real> slope = rate(y_);
@@ -131,7 +176,7 @@ class PressedImpact {
       } else if (after < -goal.tolerance) {
         const Real secant = h * before / (before - after);
         h = secant < h ? secant : Real(h / Real(2));
-      } else if (h > cone_resolution_ && !is_within_cones(step.end)) {
+      } else if (h > cone_resolution_ && (!is_within_cones(step.end) || has_outgrown(step.end))) {
         h = h / Real(2);
       } else {
         const Real longer = Real(1.5) * h;
@@ -145,21 +190,38 @@ class PressedImpact {
   }
 
   // The step that error control asks for, but no longer than a slip's own scale: direction and
-  // friction turn within no time where a slip begins or ends, so that it is followed up from and
-  // down to its last places in a geometric row of steps.
+  // friction turn within no time near the end of a slip, so that it is followed down to its last
+  // places in a geometric row of steps.
   [[nodiscard]] Real within_slip_scale(const PressedState<Real>& slope) const {
-    Real h = control_;
-    for (const std::size_t contact :
-         {std::size_t{pressed::nose_slip}, std::size_t{pressed::cloth_slip}}) {
-      const Vec2<Real> slip = slip_at(y_, contact);
-      const Real change = dot(slip, slip_at(slope, contact));
-      if (change == Real(0))
-        continue;
-      const Real bound = (change < Real(0) ? Real(-0.9) : Real(4)) * dot(slip, slip) / change;
-      if (bound < h)
-        h = bound;
+    const Real at_nose = slip_scale(pressed::nose_slip, slope, creeps_.nose);
+    const Real at_cloth = slip_scale(pressed::cloth_slip, slope, creeps_.cloth);
+    const Real shorter = at_nose < at_cloth ? at_nose : at_cloth;
+    return shorter < control_ ? shorter : control_;
+  }
+
+  [[nodiscard]] Real slip_scale(std::size_t contact, const PressedState<Real>& slope,
+                                bool creeps) const {
+    const Vec2<Real> slip = slip_at(y_, contact);
+    const Real change = dot(slip, slip_at(slope, contact));
+    if (change == Real(0) || (creeps && change > Real(0))) {
+      return control_;
     }
-    return h;
+    return (change < Real(0) ? Real(-0.9) : Real(4)) * dot(slip, slip) / change;
+  }
+
+  // Whether a creeping slip would go far beyond what counts as creeping.
+  [[nodiscard]] bool has_outgrown(const PressedState<Real>& y) const {
+    const Real limit = Real(8 * creeping_slip);
+    const auto is_beyond = [&](std::size_t contact) {
+      return dot(slip_at(y, contact), slip_at(y, contact)) > limit * limit;
+    };
+    return (creeps_.nose && is_beyond(pressed::nose_slip)) ||
+           (creeps_.cloth && is_beyond(pressed::cloth_slip));
+  }
+
+  [[nodiscard]] bool creeps_on(std::size_t contact) const {
+    const Vec2<Real> slip = slip_at(y_, contact);
+    return dot(slip, slip) < Real(creeping_slip) * Real(creeping_slip);
   }
 
   [[nodiscard]] bool is_within_cones(const PressedState<Real>& y) const {
@@ -170,6 +232,8 @@ class PressedImpact {
     y_ = end;
     const bool nose_ended = grips_.nose == Grip::slips && ends_slip(pressed::nose_slip);
     const bool cloth_ended = grips_.cloth == Grip::slips && ends_slip(pressed::cloth_slip);
+    creeps_.nose = creeps_.nose && !nose_ended && creeps_on(pressed::nose_slip);
+    creeps_.cloth = creeps_.cloth && !cloth_ended && creeps_on(pressed::cloth_slip);
     if (!nose_ended && !cloth_ended && is_within_cones(y_)) {
       return;
     }
@@ -186,7 +250,7 @@ class PressedImpact {
     if (size > final_step_)
       return false;
     const bool is_nose = contact == pressed::nose_slip;
-    const Onset end = settled(directions(), grips_, {is_nose, !is_nose});
+    const Onset end = settled(directions(y_), grips_, {is_nose, !is_nose});
     const Vec2<Real> direction = is_nose ? end.nose : end.cloth;
     const PressedState<Real> slope =
         contacts_.rate(contacts_.forces(end.nose, end.cloth, grips_), y_, grips_);
@@ -219,35 +283,27 @@ class PressedImpact {
       }
       grips_ = grips;
       const Real tiny = slip_floor_ / Real(64);
-      if (!nose_moves && grips.nose == Grip::slips)
+      if (!nose_moves && grips.nose == Grip::slips) {
         set_slip(pressed::nose_slip, tiny * onset.nose);
+        creeps_.nose = true;
+      }
       if (!cloth_moves && grips.cloth == Grip::slips) {
         set_slip(pressed::cloth_slip, tiny * onset.cloth);
+        creeps_.cloth = true;
       }
       return;
     }
   }
 
-  // Directions of slip, also of one that is about to begin.
-  struct Onset {
-    Vec2<Real> nose{};
-    Vec2<Real> cloth{};
-  };
-  // Which of them are to be found.
-  struct Moving {
-    bool nose = false;
-    bool cloth = false;
-  };
-
-  [[nodiscard]] Onset directions() const {
-    return {unit_or_zero(slip_at(y_, pressed::nose_slip)),
-            unit_or_zero(slip_at(y_, pressed::cloth_slip))};
+  [[nodiscard]] static Onset directions(const PressedState<Real>& y) {
+    return {unit_or_zero(slip_at(y, pressed::nose_slip)),
+            unit_or_zero(slip_at(y, pressed::cloth_slip))};
   }
 
   [[nodiscard]] Onset onset_of(const Grips& grips) const {
     const bool nose_begins = grips.nose == Grip::slips && !has_slip(pressed::nose_slip);
     const bool cloth_begins = grips.cloth == Grip::slips && !has_slip(pressed::cloth_slip);
-    return settled(directions(), grips, {nose_begins, cloth_begins});
+    return settled(directions(y_), grips, {nose_begins, cloth_begins});
   }
 
   // The directions with which slips begin or end: driven along d against the friction along -d.
@@ -259,7 +315,8 @@ class PressedImpact {
     }
     const auto moved = [](const Vec2<Real>& direction, const Vec2<Real>& rate,
                           const Real& friction) {
-      const Real k = Real(4) * friction + Real(2) * square_root(Real(dot(rate, rate)));
+      const Real driven = dot(direction, rate);
+      const Real k = Real(4) * friction - (driven < Real(0) ? Real(2) * driven : Real(0));
       return unit_or_zero(k * direction + rate);
     };
     for (int i = 0; i < settling_iterations; ++i) {
@@ -272,8 +329,12 @@ class PressedImpact {
         const Real friction = contacts_.cloth_friction() * f.cloth_normal;
         onset.cloth = moved(last.cloth, contacts_.cloth_slip_rate(f), friction);
       }
-      if (onset.nose == last.nose && onset.cloth == last.cloth)
+      const Vec2<Real> nose_change = onset.nose - last.nose;
+      const Vec2<Real> cloth_change = onset.cloth - last.cloth;
+      const Real change = dot(nose_change, nose_change) + dot(cloth_change, cloth_change);
+      if (change <= precision_ * precision_ / Real(16)) {
         break;
+      }
     }
     return onset;
   }
@@ -287,6 +348,7 @@ class PressedImpact {
   Real final_step_;  // impulse in which a slip may end in one straight step
   Real control_ = first_step();
   Grips grips_{};
+  Moving creeps_{};  // slips that have just begun
   int steps_ = 0;
 };
 
