@@ -40,8 +40,6 @@ std::string shown(rules::Seat seat) {
 std::string shown(storage::UnixMicros t) {
   return std::to_string(number(t));
 }
-  return std::to_string(number(id));
-}
 std::string shown(storage::Micros t) {
   return std::to_string(t.count());
 }

@@ -1,0 +1,153 @@
+// Games played to the end (or to a number of turns) by two players who shoot at random, through
+// match::Game and a real database, one turn a transaction.
+//
+//   PlayedGame played(*database, order_of(GameId{1}), 7);
+//   played.play(40);
+#pragma once
+
+#include <cstdint>
+#include <random>
+#include <stdexcept>
+
+#include "rules/referee.hpp"
+#include "server/match/game.hpp"
+
+namespace poolhall::match {
+
+template <class T>
+T must(storage::Expected<T> value) {
+  if (!value)
+    throw std::runtime_error(value.error().reason);
+  if constexpr (!std::is_void_v<T>)
+    return std::move(*value);
+}
+
+inline GameOrder order_of(std::int64_t id) {
+  GameOrder order;
+  order.id = protocol::GameId{id};
+  order.match = protocol::MatchId{1};
+  order.number = static_cast<std::uint32_t>(id - 1);
+  order.agents = {storage::AgentId{1}, storage::AgentId{2}};
+  order.terms.rack_gap = 1e-4;
+  order.terms.increment = storage::Micros{1'000'000};
+  order.rack_seed = rack_seed(99, static_cast<std::uint64_t>(id));
+  for (std::size_t i = 0; i < order.key.size(); ++i)
+    order.key[i] = static_cast<std::uint8_t>(7 * i + static_cast<std::size_t>(id));
+  order.created = storage::UnixMicros{1'000};
+  return order;
+}
+
+// Two agents and a match that the games of order_of belong to.
+inline void add_players(storage::Database& database) {
+  must(database.begin());
+  for (const std::uint8_t id : {1, 2}) {
+    storage::AgentRecord agent{.id = storage::AgentId{id}, .name = id == 1 ? "Anna" : "Bob"};
+    agent.token_hash[0] = id;
+    must(database.add_agent(agent));
+  }
+  must(database.add_match({.id = protocol::MatchId{1},
+                           .agents = {storage::AgentId{1}, storage::AgentId{2}},
+                           .games = 4}));
+  must(database.commit());
+}
+
+class PlayedGame {
+ public:
+  PlayedGame(storage::Database& database, const GameOrder& order, std::uint64_t seed)
+      : database_(database), random_(seed), game_(begin(database, order)) {}
+
+  [[nodiscard]] Game& game() { return game_; }
+
+  // At most so many turns; then the player to move concedes.
+  void play(std::uint32_t turns) {
+    for (std::uint32_t i = 0; i < turns && game_.phase() != Phase::over; ++i)
+      one_turn();
+    if (game_.phase() != Phase::over)
+      carry_out(game_.concede(game_.state().to_move, arrival()));
+  }
+
+  // Asks until the turn is over.
+  void one_turn() {
+    const std::uint32_t turn = game_.state().turn;
+    while (game_.phase() != Phase::over && game_.state().turn == turn)
+      carry_out(ask());
+  }
+
+  void carry_out(Answer answer) {
+    if (auto* play_it = std::get_if<Play>(&answer))
+      answer = game_.settle(play(play_it->job), now_);
+    if (auto* write = std::get_if<Store>(&answer)) {
+      must(database_.begin());
+      must(database_.append_turn(write->turn));
+      if (write->game)
+        must(database_.update_game(*write->game));
+      must(database_.commit());
+      game_.stored();
+    }
+  }
+
+  [[nodiscard]] Answer ask() {
+    const rules::GameState& state = game_.state();
+    game_.begin_turn(now_);
+    if (state.kind == rules::TurnKind::decision) {
+      const auto choice = static_cast<std::size_t>(below(state.options.size()));
+      return game_.decide(state.to_move, {game_.record().id, state.turn, state.options[choice]},
+                          arrival());
+    }
+    return game_.shot(state.to_move, any_shot(), arrival());
+  }
+
+  [[nodiscard]] protocol::Shot any_shot() {
+    const rules::GameState& state = game_.state();
+    protocol::Shot shot{.game = game_.record().id, .turn = state.turn};
+    shot.shot_id.json = std::to_string(++shot_id_);
+    physics::Vec2<double> from = rules::find_ball(state, physics::cue_ball)->position;
+    if (state.kind != rules::TurnKind::shot) {
+      const double length = state.kind == rules::TurnKind::ball_in_hand ? 2.1 : 0.5;
+      from = {between(0.05, 1.05), between(0.05, length)};
+      shot.cue_ball = from;
+    }
+    const auto balls = rules::callable_balls(state);
+    const physics::BallId target = balls.empty() ? physics::BallId{1} : balls[below(balls.size())];
+    const physics::Vec2<double> to = rules::find_ball(state, target)->position;
+    const double degrees = std::atan2(to.y - from.y, to.x - from.x) * 180 / 3.141592653589793;
+    shot.params = {.a = between(-8, 8),
+                   .b = between(-8, 8),
+                   .theta = between(1, 12),
+                   .phi = degrees < 0 ? degrees + 360 : degrees,
+                   .v = between(2, 6)};
+    if (state.kind != rules::TurnKind::break_shot)
+      shot.call = {rules::Call::Kind::pocket, target,
+                   static_cast<physics::PocketId>(below(physics::pocket_count))};
+    return shot;
+  }
+
+  [[nodiscard]] Arrival arrival() {
+    now_ += Instant{1'000 + static_cast<std::int64_t>(below(2'000'000))};
+    return {.at = now_, .lag = storage::Micros{3'000}, .date = storage::UnixMicros{now_.count()}};
+  }
+
+ private:
+  static Game begin(storage::Database& database, const GameOrder& order) {
+    auto record = new_game_record(order);
+    if (!record)
+      throw std::runtime_error(record.error());
+    must(database.begin());
+    must(database.add_game(*record));
+    must(database.commit());
+    return Game::open({.game = std::move(*record)}).value();
+  }
+
+  [[nodiscard]] std::size_t below(std::size_t bound) { return random_() % bound; }
+  [[nodiscard]] double between(double low, double high) {
+    return low + (high - low) * static_cast<double>(random_() >> 11) * 0x1p-53;
+  }
+
+  storage::Database& database_;
+  std::mt19937_64 random_;
+  Game game_;
+  Instant now_{1'000'000};
+  std::uint32_t shot_id_ = 0;
+};
+
+}  // namespace poolhall::match
