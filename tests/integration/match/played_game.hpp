@@ -5,6 +5,7 @@
 //   played.play(40);
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <random>
 #include <stdexcept>
@@ -40,14 +41,16 @@ inline GameOrder order_of(std::int64_t id) {
 // Two agents and a match that the games of order_of belong to.
 inline void add_players(storage::Database& database) {
   must(database.begin());
-  for (const std::uint8_t id : {1, 2}) {
+  for (const int id : {1, 2}) {
     storage::AgentRecord agent{.id = storage::AgentId{id}, .name = id == 1 ? "Anna" : "Bob"};
-    agent.token_hash[0] = id;
+    agent.token_hash[0] = static_cast<std::uint8_t>(id);
     must(database.add_agent(agent));
   }
-  must(database.add_match({.id = protocol::MatchId{1},
-                           .agents = {storage::AgentId{1}, storage::AgentId{2}},
-                           .games = 4}));
+  storage::MatchRecord match;
+  match.id = protocol::MatchId{1};
+  match.agents = {storage::AgentId{1}, storage::AgentId{2}};
+  match.games = 4;
+  must(database.add_match(match));
   must(database.commit());
 }
 
@@ -75,7 +78,7 @@ class PlayedGame {
 
   void carry_out(Answer answer) {
     if (auto* play_it = std::get_if<Play>(&answer))
-      answer = game_.settle(play(play_it->job), now_);
+      answer = game_.settle(match::play(play_it->job), now_);
     if (auto* write = std::get_if<Store>(&answer)) {
       must(database_.begin());
       must(database_.append_turn(write->turn));
@@ -99,7 +102,9 @@ class PlayedGame {
 
   [[nodiscard]] protocol::Shot any_shot() {
     const rules::GameState& state = game_.state();
-    protocol::Shot shot{.game = game_.record().id, .turn = state.turn};
+    protocol::Shot shot;
+    shot.game = game_.record().id;
+    shot.turn = state.turn;
     shot.shot_id.json = std::to_string(++shot_id_);
     physics::Vec2<double> from = rules::find_ball(state, physics::cue_ball)->position;
     if (state.kind != rules::TurnKind::shot) {

@@ -30,9 +30,9 @@ struct Place {
 struct Motion {
   double since = 0;
   bool pocketed = false;
-  Place at;
-  Place velocity;
-  Place acceleration;
+  Place at{};
+  Place velocity{};
+  Place acceleration{};
 
   [[nodiscard]] Place place(double t) const {
     const double dt = t - since;
