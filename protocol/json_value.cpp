@@ -17,22 +17,26 @@ struct Open {
   std::string key;  // of the member that is being read, when value is an object
 };
 
-std::string without_prefix(std::string_view what) {
-  const std::size_t end_of_prefix = what.find("] ");
-  if (end_of_prefix != std::string_view::npos) {
-    what.remove_prefix(end_of_prefix + 2);
-  }
-  // "...; last read: 'x'; expected y": the token read is told apart, in full only when short.
-  const std::size_t last_read = what.find("; last read: ");
-  if (last_read == std::string_view::npos) {
-    return std::string(what);
-  }
-  std::string message(what.substr(0, last_read));
+// "[json.exception.parse_error.101] parse error at line 1, column 5: syntax error while parsing
+// value - invalid literal; last read: 'x'; expected y" to "line 1, column 5: invalid literal;
+// expected y".
+std::string in_short(std::string_view what) {
+  const auto between = [&](std::string_view from, std::string_view to) {
+    const std::size_t start = what.find(from);
+    if (start == std::string_view::npos) {
+      return std::string_view();
+    }
+    const std::string_view tail = what.substr(start + from.size());
+    return tail.substr(0, tail.find(to));
+  };
+  std::string place(between("parse error at ", ": "));
+  std::string problem(between(" - ", "; last read: "));
   const std::size_t expected = what.rfind("; expected ");
-  if (expected != std::string_view::npos && expected > last_read) {
-    message += what.substr(expected);
+  if (problem.empty()) {
+    return std::string(between("] ", "; last read: "));
   }
-  return message;
+  return place + ": " + problem +
+         (expected == std::string_view::npos ? "" : std::string(what.substr(expected)));
 }
 
 // Builds the tree while the bounds hold; the first failure is kept and ends the parse.
@@ -115,13 +119,13 @@ bool TreeBuilder::key(string_t& name) {
 
 bool TreeBuilder::parse_error(std::size_t position, const std::string& last_token,
                               const nlohmann::detail::exception& failure) {
-  std::string reason = "not JSON at byte " + std::to_string(position) + ": ";
-  if (dynamic_cast<const nlohmann::detail::out_of_range*>(&failure) != nullptr) {
-    reason = "a number that is too large for a double at byte " + std::to_string(position);
-  } else {
-    reason += without_prefix(failure.what());
-  }
-  if (!last_token.empty() && last_token.size() <= longest_repeated_token) {
+  const bool overflow = dynamic_cast<const nlohmann::detail::out_of_range*>(&failure) != nullptr;
+  std::string reason =
+      overflow ? "a number that is too large for a double at byte " + std::to_string(position)
+               : "not JSON at " + in_short(failure.what());
+  // A token of nlohmann's with control characters in it is written "<U+000A>".
+  if (!last_token.empty() && last_token.size() <= longest_repeated_token &&
+      last_token.find("<U+") == std::string::npos) {
     reason += "; got " + last_token;
   }
   return refuse(here(), std::move(reason));

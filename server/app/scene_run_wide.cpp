@@ -19,6 +19,10 @@ namespace protocol {
 template <class Backend>
 static void write_real(JsonWriter& out, const mp::number<Backend, mp::et_off>& value) {
   using Number = mp::number<Backend, mp::et_off>;
+  if (value == 0) {
+    out.raw("0");
+    return;
+  }
   out.raw(value.str(std::numeric_limits<Number>::max_digits10, std::ios_base::scientific));
 }
 

@@ -1,6 +1,7 @@
 // `poolhall simulate`: a scene to its event log and its final state.
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -56,8 +57,12 @@ void complain(const std::string& source, const protocol::Error& error) {
 }
 
 int write_svg(const std::string& path, const Outcome& outcome) {
+  const physics::Simulation<double>& simulation = outcome.run.rounded;
+  const double until = simulation.ending == physics::Ending::t_max
+                           ? outcome.file.options.t_max.value_or(simulation.duration)
+                           : simulation.duration;
   std::ofstream out(path, std::ios::binary);
-  out << table_svg(protocol::scene_of(outcome.file), outcome.run.rounded);
+  out << table_svg(protocol::scene_of(outcome.file), simulation, until);
   out.close();
   if (!out) {
     std::cerr << "--svg: cannot write " << path << '\n';

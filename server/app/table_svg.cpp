@@ -53,7 +53,7 @@ void go_on(Way& way, double t, const Vec2<double>& end,
 }
 
 std::vector<Way> ways_of(const physics::Scene<double>& scene,
-                         const physics::Simulation<double>& simulation) {
+                         const physics::Simulation<double>& simulation, double until) {
   const auto coefficients = physics::coefficients<double>(scene.materials);
   std::vector<Way> ways;
   for (const physics::Ball<double>& ball : scene.balls) {
@@ -71,7 +71,7 @@ std::vector<Way> ways_of(const physics::Scene<double>& scene,
     }
   }
   for (std::size_t i = 0; i < ways.size(); ++i) {
-    go_on(ways[i], simulation.duration, simulation.balls[i].position, coefficients);
+    go_on(ways[i], until, simulation.balls[i].position, coefficients);
   }
   return ways;
 }
@@ -153,7 +153,7 @@ std::string ball_number(const physics::Ball<double>& ball, double length, double
 }  // namespace
 
 std::string table_svg(const physics::Scene<double>& scene,
-                      const physics::Simulation<double>& simulation) {
+                      const physics::Simulation<double>& simulation, double until) {
   const double radius = scene.materials.ball_radius;
   const double length = scene.table.length;
   std::string svg = fmt::format(
@@ -168,7 +168,7 @@ std::string table_svg(const physics::Scene<double>& scene,
   for (const physics::Ball<double>& ball : scene.balls) {
     svg += ball_picture(ball, radius, "0.3");
   }
-  for (const Way& way : ways_of(scene, simulation)) {
+  for (const Way& way : ways_of(scene, simulation, until)) {
     if (!way.path.empty()) {
       svg += fmt::format(R"(<path d="{}" fill="none" stroke="{}" stroke-width="0.005"/>)"
                          "\n",

@@ -1,7 +1,7 @@
 // A picture of a shot: the table from above, head at the bottom, every ball's path, where it began
 // and where it ended. A path between two events is a parabola, which SVG draws exactly.
 //
-//   std::string svg = table_svg(scene, simulation);
+//   std::string svg = table_svg(scene, simulation, simulation.duration);
 #pragma once
 
 #include <string>
@@ -10,7 +10,8 @@
 
 namespace poolhall::app {
 
+// `until`, in seconds: when the simulation ended, which may be after its last event.
 [[nodiscard]] std::string table_svg(const physics::Scene<double>& scene,
-                                    const physics::Simulation<double>& simulation);
+                                    const physics::Simulation<double>& simulation, double until);
 
 }  // namespace poolhall::app

@@ -1,0 +1,224 @@
+// The published schemas and the published transcripts against the code.
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "protocol/codec.hpp"
+#include "protocol/scene_json.hpp"
+#include "tests/support/sample_messages.hpp"
+
+namespace poolhall::protocol {
+namespace {
+
+const std::filesystem::path source_dir{POOLHALL_SOURCE_DIR};
+
+// A session as validate_messages.py reads it, in a file of its own that goes with it.
+class Session {
+ public:
+  Session() {
+    std::string name = (std::filesystem::temp_directory_path() / "poolhall-XXXXXX").string();
+    const int fd = mkstemp(name.data());
+    EXPECT_GE(fd, 0);
+    file_ = fdopen(fd, "w");
+    path_ = name;
+  }
+  Session(const Session&) = delete;
+  Session& operator=(const Session&) = delete;
+  ~Session() {
+    std::fclose(file_);
+    std::filesystem::remove(path_);
+  }
+
+  void agent(const std::string& line) { std::fprintf(file_, "> %s", line.c_str()); }
+  void server(const std::string& line) { std::fprintf(file_, "< %s", line.c_str()); }
+
+  struct Verdict {
+    int exit_code;
+    std::string output;
+  };
+  [[nodiscard]] Verdict validated() const {
+    std::fflush(file_);
+    return validated(path_);
+  }
+  [[nodiscard]] static Verdict validated(const std::filesystem::path& session) {
+    // Debian's own python: it has the jsonschema that the project asks for.
+    const std::string command =
+        "/usr/bin/python3 " + (source_dir / "tests/support/validate_messages.py").string() + " " +
+        (source_dir / "protocol/schema").string() + " < " + session.string() + " 2>&1";
+    std::FILE* pipe = popen(command.c_str(), "r");
+    std::string output;
+    for (int c = std::fgetc(pipe); c != EOF; c = std::fgetc(pipe)) {
+      output += static_cast<char>(c);
+    }
+    return {pclose(pipe), output};
+  }
+
+ private:
+  std::FILE* file_ = nullptr;
+  std::filesystem::path path_;
+};
+
+TEST(Schemas, HoldForEveryRequest) {
+  Session session;
+  for (const Request& request : test_support::sample_requests()) {
+    session.agent(encode_request(1, request));
+  }
+  session.agent(encode_lag({5}));
+  const auto verdict = session.validated();
+  EXPECT_EQ(verdict.exit_code, 0) << verdict.output;
+}
+
+TEST(Schemas, HoldForEveryReplyAndError) {
+  Session session;
+  std::map<Method, Request> requests;
+  for (const Request& request : test_support::sample_requests()) {
+    requests.emplace(method_of(request), request);
+  }
+  for (const auto& sample : test_support::sample_replies()) {
+    session.agent(encode_request(1, requests.at(sample.method)));
+    session.server(encode_reply({"1"}, sample.reply));
+  }
+  for (const ErrorEntry& known : error_registry()) {
+    session.server(encode_error({"null"}, {known.code, "/params", "why", GameId{1}, true}));
+  }
+  const auto verdict = session.validated();
+  EXPECT_EQ(verdict.exit_code, 0) << verdict.output;
+}
+
+TEST(Schemas, HoldForEveryNotification) {
+  Session session;
+  std::uint64_t seq = 0;
+  for (const auto& notification : test_support::sample_notifications()) {
+    session.server(encode_notification(notification, ++seq));
+  }
+  const auto verdict = session.validated();
+  EXPECT_EQ(verdict.exit_code, 0) << verdict.output;
+}
+
+TEST(Schemas, RefuseWhatTheCodeRefuses) {
+  for (const char* line : {
+           R"({"jsonrpc":"2.0","id":1,"method":"ack","params":{"game":"x"}})",
+           R"({"jsonrpc":"2.0","id":1,"method":"hello","params":{"protocol":[1],"name":"b"}})",
+           R"({"jsonrpc":"2.0","id":1,"method":"login","params":{"token":"1234"}})",
+           R"({"jsonrpc":"2.0","method":"sync","params":{"game":1}})",
+           R"({"jsonrpc":"2.0","id":1,"method":"fly","params":{}})",
+       }) {
+    EXPECT_FALSE(decode_request(line, Limits{})) << line;
+    Session session;
+    session.agent(std::string(line) + "\n");
+    EXPECT_NE(session.validated().exit_code, 0) << line;
+  }
+}
+
+TEST(Schemas, RefuseAMemberThatNoMessageHas) {
+  std::string line = encode_notification(LagProbe{1}, 1);
+  line.replace(line.find("\"t\""), 3, "\"u\"");
+  Session session;
+  session.server(line);
+  EXPECT_NE(session.validated().exit_code, 0);
+}
+
+struct Recorded {
+  std::string name;
+  std::vector<std::string> lines;  // with their "> " or "< "
+};
+
+std::vector<Recorded> transcripts() {
+  std::vector<Recorded> found;
+  for (const auto& entry :
+       std::filesystem::directory_iterator(source_dir / "protocol/transcripts")) {
+    std::ifstream in(entry.path());
+    Recorded& recorded = found.emplace_back();
+    recorded.name = entry.path().string();
+    for (std::string line; std::getline(in, line);) {
+      if (!line.empty() && line[0] != '#') {
+        recorded.lines.push_back(line);
+      }
+    }
+  }
+  return found;
+}
+
+TEST(Transcripts, HoldAgainstTheSchemas) {
+  ASSERT_FALSE(transcripts().empty());
+  for (const Recorded& recorded : transcripts()) {
+    const auto verdict = Session::validated(recorded.name);
+    EXPECT_EQ(verdict.exit_code, 0) << recorded.name << "\n" << verdict.output;
+  }
+}
+
+TEST(Transcripts, AreReadByBothSidesOfTheCodec) {
+  for (const Recorded& recorded : transcripts()) {
+    std::map<RequestId, Method> asked;
+    for (const std::string& line : recorded.lines) {
+      const std::string_view text = std::string_view(line).substr(2);
+      if (line[0] == '<') {
+        const auto message = decode_server_message(text, [&](const RequestId& id) {
+          const auto found = asked.find(id);
+          return found == asked.end() ? std::nullopt : std::optional(found->second);
+        });
+        ASSERT_TRUE(message) << recorded.name << "\n" << message.error().reason << "\n" << line;
+        EXPECT_FALSE(std::holds_alternative<UnknownNotification>(*message)) << line;
+        continue;
+      }
+      const auto incoming = decode_request(text, Limits{});
+      if (incoming && incoming->id) {
+        asked[*incoming->id] = method_of(incoming->request);
+      }
+      ASSERT_TRUE(incoming) << recorded.name << "\n" << incoming.error().error.reason;
+    }
+  }
+}
+
+// The JSON examples of README.md: every ```json block is a list of lines as in a transcript.
+TEST(Readme, HasExamplesThatAreValid) {
+  std::ifstream in(source_dir / "protocol/README.md");
+  Session session;
+  std::size_t examples = 0;
+  bool inside = false;
+  for (std::string line; std::getline(in, line);) {
+    if (line.starts_with("```")) {
+      inside = line == "```json-lines";
+    } else if (inside && line.starts_with("> ")) {
+      session.agent(line.substr(2) + "\n");
+      ++examples;
+    } else if (inside && line.starts_with("< ")) {
+      session.server(line.substr(2) + "\n");
+      ++examples;
+    }
+  }
+  EXPECT_GE(examples, 10U);
+  const auto verdict = session.validated();
+  EXPECT_EQ(verdict.exit_code, 0) << verdict.output;
+}
+
+TEST(Readme, NamesEveryMethodNotificationErrorAndLimit) {
+  std::ifstream in(source_dir / "protocol/README.md");
+  std::stringstream text;
+  text << in.rdbuf();
+  const std::string readme = text.str();
+  const auto expect_named = [&](std::string_view word) {
+    EXPECT_NE(readme.find("`" + std::string(word)), std::string::npos) << word;
+  };
+  for (std::size_t i = 0; i < std::variant_size_v<Request>; ++i) {
+    expect_named(name(static_cast<Method>(i)));
+  }
+  for (std::size_t i = 0; i < notification_count; ++i) {
+    expect_named(notification_name(i));
+  }
+  for (const ErrorEntry& known : error_registry()) {
+    expect_named(known.name);
+    EXPECT_NE(readme.find(std::to_string(static_cast<int>(known.code))), std::string::npos);
+    EXPECT_NE(readme.find(known.meaning), std::string::npos) << known.meaning;
+  }
+}
+
+}  // namespace
+}  // namespace poolhall::protocol

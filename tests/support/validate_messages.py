@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+"""Validates a recorded session against the schemas of protocol/schema.
+
+    validate_messages.py SCHEMA_FOLDER < session.txt
+
+A line "> {...}" went from an agent to the server, "< {...}" came back; lines that begin with "#"
+and empty lines are passed over. A reply is held against the schema of the request with its id; an
+error may answer anything. Prints how many messages were valid; exit code 1 and one line each for
+those that were not.
+"""
+import json
+import pathlib
+import sys
+
+import jsonschema
+
+BASE = "https://poolhall.example/schema/"
+
+
+def load(folder):
+    store = {}
+    for path in sorted(pathlib.Path(folder).glob("*.schema.json")):
+        schema = json.loads(path.read_text(encoding="utf-8"))
+        jsonschema.Draft202012Validator.check_schema(schema)
+        store[schema["$id"]] = schema
+    return store
+
+
+class Schemas:
+    def __init__(self, folder):
+        self.store = load(folder)
+        self.validators = {}
+
+    def errors(self, message, file, definition=None):
+        key = (file, definition)
+        if key not in self.validators:
+            schema = self.store[BASE + file]
+            if definition is not None and definition not in schema["$defs"]:
+                return [f"{file} has no $defs/{definition}"]
+            resolver = jsonschema.RefResolver(BASE + file, schema, store=self.store)
+            part = schema if definition is None else schema["$defs"][definition]
+            self.validators[key] = jsonschema.Draft202012Validator(part, resolver=resolver)
+        return [f"{e.json_path}: {e.message[:200]}"
+                for e in self.validators[key].iter_errors(message)]
+
+
+def check(schemas, direction, message, methods):
+    if direction == ">":
+        methods[json.dumps(message.get("id"))] = message.get("method")
+        return schemas.errors(message, "request.schema.json", message.get("method"))
+    if "method" in message:
+        return schemas.errors(message, "notification.schema.json", message["method"])
+    if "error" in message:
+        return schemas.errors(message, "error.schema.json")
+    method = methods.get(json.dumps(message.get("id")))
+    return (schemas.errors(message, "reply.schema.json")
+            + schemas.errors(message.get("result"), "reply.schema.json", method))
+
+
+def main():
+    schemas = Schemas(sys.argv[1])
+    methods, valid, wrong = {}, 0, 0
+    for number, line in enumerate(sys.stdin, 1):
+        line = line.rstrip("\n")
+        if not line or line.startswith("#"):
+            continue
+        found = check(schemas, line[0], json.loads(line[2:]), methods)
+        for error in found[:3]:
+            print(f"line {number}: {error}")
+        wrong += bool(found)
+        valid += not found
+    print(f"{valid} valid, {wrong} wrong")
+    return 1 if wrong else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
