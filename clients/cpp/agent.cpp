@@ -27,11 +27,9 @@ std::optional<std::int64_t> own_id(const protocol::RequestId& id) {
 }
 
 std::string text_of(const protocol::ErrorMessage& message) {
-  std::string text = message.code;
-  if (!message.error.field.empty()) {
-    text += " at " + message.error.field;
-  }
-  return text + ": " + message.error.reason;
+  const std::string& reason = message.error.reason;
+  std::string text = reason.starts_with(message.code) ? reason : message.code + ": " + reason;
+  return message.error.field.empty() ? text : text + " (" + message.error.field + ")";
 }
 
 bool is_refusal_of_a_move(ErrorCode code) {
@@ -183,6 +181,12 @@ std::optional<End> Agent::reply_came(const protocol::ReplyMessage& message) {
       return std::nullopt;
     case Method::ack:
       return acknowledged();
+    case Method::sync:
+      if (const auto* reply =
+              std::get_if<protocol::SyncReply<protocol::Received>>(&message.reply)) {
+        return synchronised(*reply);
+      }
+      return std::nullopt;
     case Method::challenge:
       challenges_made_.insert(in_flight->index);
       return std::nullopt;
@@ -228,6 +232,14 @@ std::optional<End> Agent::acknowledged() {
     return End{Ending::finished, "all games are played"};
   }
   return std::nullopt;
+}
+
+std::optional<End> Agent::synchronised(const protocol::SyncReply<protocol::Received>& reply) {
+  open_desk(reply.snapshot.terms);
+  if (reply.over) {
+    return notified(*reply.over);
+  }
+  return reply.pending ? notified(*reply.pending) : std::nullopt;
 }
 
 // ---- Errors ----
@@ -326,7 +338,7 @@ std::optional<End> Agent::notified(const protocol::GameSnapshot<protocol::Receiv
 std::optional<End> Agent::notified(const protocol::GameTurn<protocol::Received>& turn) {
   const auto desk = desks_.find(turn.game);
   if (desk == desks_.end()) {
-    log("a turn of an unknown game " + std::to_string(protocol::number(turn.game)));
+    send(protocol::Sync{turn.game}, {.game = turn.game});
     return std::nullopt;
   }
   const Clock clock{std::chrono::milliseconds(turn.clock.own_ms),

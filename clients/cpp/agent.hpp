@@ -102,6 +102,7 @@ class Agent {
   [[nodiscard]] Result reply_came(const protocol::ReplyMessage& message);
   [[nodiscard]] Result logged_in(const protocol::LoginReply& reply);
   [[nodiscard]] Result acknowledged();
+  [[nodiscard]] Result synchronised(const protocol::SyncReply<protocol::Received>& reply);
   void send_wishes();
 
   [[nodiscard]] Result error_came(const protocol::ErrorMessage& message);

@@ -18,6 +18,7 @@ rules::GameState scripted_opening() {
 protocol::GameStart<Outgoing> scripted_start(protocol::GameId game) {
   protocol::GameStart<Outgoing> start;
   start.terms.game = game;
+  start.terms.match = protocol::MatchId{5};
   start.terms.opponent = "somebody";
   start.terms.table = RawJson{protocol::encode_table(physics::preset_table("olympiad").value())};
   start.terms.physics =
@@ -42,6 +43,7 @@ protocol::GameTurn<Outgoing> scripted_turn(protocol::GameId game, std::uint32_t 
 protocol::GameOver scripted_over(protocol::GameId game) {
   protocol::GameOver over;
   over.game = game;
+  over.match = protocol::MatchId{5};
   over.checksum.text = std::string(64, '0');
   return over;
 }

@@ -178,6 +178,17 @@ TEST_F(AgentTest, ARefusedShotMakesItThinkAgain) {
   EXPECT_EQ(outside_.thoughts[1].task.key.refusals, 1U);
 }
 
+TEST_F(AgentTest, AsksForAGameThatItDoesNotKnow) {
+  log_in();
+  give_turn(1);
+  EXPECT_EQ(std::get<protocol::Sync>(last().request).game, GameId{17});
+  const auto start = test_support::scripted_start(GameId{17});
+  ASSERT_FALSE(reply(
+      protocol::SyncReply<Outgoing>{.snapshot = {start.terms, start.state, {600'000, 600'000, {}}},
+                                    .pending = test_support::scripted_turn(GameId{17}, 1)}));
+  EXPECT_EQ(outside_.thoughts.size(), 1U);
+}
+
 TEST_F(AgentTest, AStaleTurnIsDropped) {
   log_in();
   start_game();
@@ -247,7 +258,8 @@ TEST_F(AgentTest, RepeatsAnUnansweredChallengeUnderTheSameId) {
   log_in();
   const auto second = std::get<protocol::Challenge>(last().request);
   EXPECT_EQ(first, second);
-  ASSERT_FALSE(reply(protocol::ChallengeReply{}));
+  ASSERT_FALSE(reply(
+      protocol::ChallengeReply{protocol::ChallengeId{3}, protocol::ChallengeStatus::accepted, {}}));
   agent().session_ended();
   log_in();
   EXPECT_FALSE(std::holds_alternative<protocol::Challenge>(last().request));
