@@ -31,6 +31,10 @@ Vec2<double> acceleration(const Ball<double>& ball, const physics::Materials& ma
 
 }  // namespace
 
+bool has_place(const Ball<double>& ball) {
+  return !(ball.position == Vec2<double>{});
+}
+
 PathPiece piece_from(const Ball<double>& ball, const physics::Materials& materials,
                      double duration) {
   return {ball.position, ball.velocity, acceleration(ball, materials), duration};
@@ -45,11 +49,14 @@ std::vector<PathPiece> ball_path(physics::BallId ball, const physics::EventLog<d
     if (!event.involves(ball)) {
       continue;
     }
-    if (!path.empty()) {
+    if (!path.empty() && path.back().to == events.size()) {
       path.back().duration = std::max(0.0, event.t - began);
       path.back().to = i;
     }
     const Ball<double>& after = event.after[event.after[0].id == ball ? 0 : 1];
+    if (!has_place(after)) {
+      continue;
+    }
     path.push_back(piece_from(after, materials, 0));
     path.back().from = i;
     path.back().to = events.size();

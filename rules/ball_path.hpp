@@ -13,6 +13,10 @@
 
 namespace poolhall::rules {
 
+// Whether the log says where the ball is. A summary does not: its places are all zero, where no
+// ball can lie.
+[[nodiscard]] bool has_place(const physics::Ball<double>& ball);
+
 // r(t) = position + velocity t + acceleration t^2 / 2 for t in [0, duration]; SI.
 struct PathPiece {
   physics::Vec2<double> position{};
@@ -23,6 +27,7 @@ struct PathPiece {
   std::size_t to = 0;    // index of the event that ends it; the log's size when none does
 };
 
+// Events that say no place begin no piece.
 [[nodiscard]] std::vector<PathPiece> ball_path(physics::BallId ball,
                                                const physics::EventLog<double>& events,
                                                const physics::Materials& materials);

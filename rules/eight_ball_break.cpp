@@ -31,12 +31,13 @@ Outcome after_eight(const GameState& after, Seat breaker, const FoulReport& repo
 }
 
 Outcome after_foul(const GameState& after, Seat opponent) {
-  if (applies(clauses::break_scratch, !on_table(after, physics::cue_ball))) {
-    return outcome(turn_for(after, opponent, TurnKind::ball_in_hand_behind_head_string),
-                   clauses::break_scratch);
+  if (!applies(clauses::break_scratch, !on_table(after, physics::cue_ball)) &&
+      applies(clauses::break_foul_choice, true)) {
+    return outcome(decision_for(after, opponent, {Decision::accept, Decision::accept_ball_in_hand}),
+                   clauses::break_foul_choice);
   }
-  return outcome(decision_for(after, opponent, {Decision::accept, Decision::accept_ball_in_hand}),
-                 clauses::break_foul_choice);
+  return outcome(turn_for(after, opponent, TurnKind::ball_in_hand_behind_head_string),
+                 clauses::break_scratch);
 }
 
 Outcome after_break(const Shot& shot, const GameState& after, const FoulReport& report,

@@ -1,7 +1,9 @@
 // Whether an event log can be that of a shot from a state. The referee judges nothing that did
-// not happen on this table.
+// not happen on this table: form, order, balls that are there, where a ball was struck, the motion
+// laws between a ball's events, everything at rest at the end. A log without the balls' states (a
+// summary) is read for what it says; a ball then stays where it was.
 //
-//   if (auto fits = check_log(ready, events, table, materials); !fits) return fits.error();
+//   if (auto fits = check_log(ready, events, materials); !fits) return fits.error();
 #pragma once
 
 #include "physics/event_log.hpp"
@@ -11,7 +13,6 @@ namespace poolhall::rules {
 
 [[nodiscard]] Expected<void> check_log(const GameState& ready,
                                        const physics::EventLog<double>& events,
-                                       const physics::Table& table,
                                        const physics::Materials& materials);
 
 }  // namespace poolhall::rules

@@ -207,7 +207,7 @@ Expected<Ruling> judge(const GameState& ready, const Call& call,
   if (auto possible = check_ready(ready, call, table, materials); !possible) {
     return tl::unexpected(possible.error());
   }
-  if (auto fits = check_log(ready, events, table, materials); !fits) {
+  if (auto fits = check_log(ready, events, materials); !fits) {
     return tl::unexpected(fits.error());
   }
   const Venue venue{table, materials};
@@ -241,9 +241,12 @@ Ruling judge_lost_turn(const GameState& state, FoulCode code, const physics::Tab
   const std::uint32_t played = state.kind == TurnKind::decision ? 0 : 1;
   Verdict verdict = with_stalemate(game_rules(state.settings.rules).lost_turn(state, venue), state,
                                    state.turns_without_pocket + played, venue);
-  verdict.fouls.push_back(code == FoulCode::shot_time_exceeded
-                              ? foul(code, clauses::shot_time_exceeded, "")
-                              : foul(code, clauses::too_many_refusals, ""));
+  if (applies(clauses::shot_time_exceeded, code == FoulCode::shot_time_exceeded)) {
+    verdict.fouls.push_back(foul(code, clauses::shot_time_exceeded, ""));
+  }
+  if (applies(clauses::too_many_refusals, code == FoulCode::too_many_refusals)) {
+    verdict.fouls.push_back(foul(code, clauses::too_many_refusals, ""));
+  }
   return ruling_of(std::move(verdict));
 }
 

@@ -52,19 +52,23 @@ bool was_away(const std::vector<PathPiece>& path, RailId rail, std::size_t event
 std::vector<BallEvent> driven_to_rail(const BallPlace& place, const EventLog<double>& events,
                                       const RailDistances& rails,
                                       const physics::Materials& materials) {
-  const std::vector<PathPiece> path = ball_path(place.id, events, materials);
-  if (path.empty()) {
+  const auto touched = [&place](const Event<double>& event) { return event.involves(place.id); };
+  if (std::none_of(events.begin(), events.end(), touched)) {
     return {};
   }
+  const std::vector<PathPiece> path = ball_path(place.id, events, materials);
   const std::vector<RailId> frozen = rails.frozen(place.position);
   std::vector<BallEvent> driven;
-  for (const PathPiece& piece : path) {
-    const Event<double>& event = events[piece.from];
+  for (std::size_t i = 0; i < events.size(); ++i) {
+    const Event<double>& event = events[i];
+    if (!touched(event)) {
+      continue;
+    }
     bool counts = false;
     if (event.type == EventType::rail_collision) {
       const bool frozen_here =
           std::find(frozen.begin(), frozen.end(), *event.rail) != frozen.end() &&
-          !was_away(path, *event.rail, piece.from, rails);
+          !was_away(path, *event.rail, i, rails);
       counts = !applies(clauses::frozen_rail, frozen_here);
     } else if (event.type == EventType::pocketed) {
       counts = applies(clauses::pocketed_is_driven, true);
@@ -72,7 +76,7 @@ std::vector<BallEvent> driven_to_rail(const BallPlace& place, const EventLog<dou
       counts = applies(clauses::off_table_is_driven, true);
     }
     if (counts) {
-      driven.push_back({place.id, piece.from});
+      driven.push_back({place.id, i});
     }
   }
   return driven;
@@ -154,7 +158,9 @@ GameState settled(const GameState& ready, const EventLog<double>& events) {
       const physics::Ball<double>& after = event.after[k];
       const auto place = std::find_if(state.balls.begin(), state.balls.end(),
                                       [&](const BallPlace& p) { return p.id == after.id; });
-      place->position = after.position;
+      if (has_place(after)) {
+        place->position = after.position;
+      }
       if (event.type == EventType::pocketed) {
         *place = {after.id, Whereabouts::pocketed, {}, *event.pocket};
       } else if (event.type == EventType::off_table) {
