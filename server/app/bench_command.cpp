@@ -1,6 +1,7 @@
 // poolhall bench precision | ... : measures, prints tables, writes CSV and SVG.
 #include <CLI/CLI.hpp>
 #include <exception>
+#include <functional>
 #include <iostream>
 #include <memory>
 #include <string>
@@ -14,25 +15,36 @@ namespace {
 
 using Benchmark = bool (*)(const bench::BenchOptions&, std::ostream&);
 
-void add_benchmark(CLI::App& parent, int& exit_code, const std::string& name,
-                   const std::string& what, Benchmark run) {
+int guarded(const std::function<bool()>& run) {
+  try {
+    return run() ? 0 : 1;
+  } catch (const std::exception& error) {
+    std::cerr << "poolhall bench: " << error.what() << '\n';
+    return 1;
+  }
+}
+
+struct BenchCommand {
+  CLI::App* command;
+  std::shared_ptr<bench::BenchOptions> options;
+};
+
+BenchCommand add_benchmark(CLI::App& parent, int& exit_code, const std::string& name,
+                           const std::string& what, Benchmark run) {
   auto options = std::make_shared<bench::BenchOptions>();
   CLI::App* command = parent.add_subcommand(name, what);
   command->add_option("--out", options->directory, "folder for CSV and SVG files")
       ->capture_default_str();
   command
-      ->add_option("--share", options->share, "share of the full number of scenes, for a quick look")
+      ->add_option("--share", options->share,
+                   "share of the full number of scenes, for a quick look")
       ->check(CLI::Range(1e-6, 1000.0))
       ->capture_default_str();
   command->add_option("--seed", options->seed, "of the random scenes")->capture_default_str();
   command->callback([options, run, &exit_code] {
-    try {
-      exit_code = run(*options, std::cout) ? 0 : 1;
-    } catch (const std::exception& error) {
-      std::cerr << "poolhall bench: " << error.what() << '\n';
-      exit_code = 1;
-    }
+    exit_code = guarded([&] { return run(*options, std::cout); });
   });
+  return {command, options};
 }
 
 }  // namespace
@@ -42,6 +54,11 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   command->require_subcommand(1);
   add_benchmark(*command, exit_code, "precision",
                 "error against run time, against the 100-digit reference", bench::bench_precision);
+  const BenchCommand speed =
+      add_benchmark(*command, exit_code, "speed",
+                    "microseconds a shot, and against the paper's own scheme", bench::bench_speed);
+  speed.command->add_option("--scenes", speed.options->scenes,
+                            "file with one scene a line, timed instead of the random ones");
 }
 
 }  // namespace poolhall::app

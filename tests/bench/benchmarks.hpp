@@ -13,6 +13,7 @@ struct BenchOptions {
   std::filesystem::path directory = "bench-results";
   double share = 1;  // of the full number of scenes, for a quick look
   std::uint64_t seed = 1;
+  std::filesystem::path scenes{};  // bench_speed: times these instead, one scene a line
 };
 
 // At least one, and `share` of `full`.
@@ -20,5 +21,9 @@ struct BenchOptions {
 
 // Error against run time: every method against the 100-digit reference.
 bool bench_precision(const BenchOptions& options, std::ostream& out);
+
+// Microseconds a shot, alone and as a ratio to the paper's own scheme; or of the
+// scenes in a file. Throws std::runtime_error that names the file and line of what cannot be read.
+bool bench_speed(const BenchOptions& options, std::ostream& out);
 
 }  // namespace poolhall::bench

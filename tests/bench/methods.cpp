@@ -6,6 +6,7 @@
 
 #include "physics/event_loop.hpp"
 #include "physics/watch.hpp"
+#include "protocol/scene_json.hpp"
 #include "tests/bench/dormand_prince.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/bench/time_stepping.hpp"
@@ -32,16 +33,12 @@ double least_microseconds(const Run& run) {
 
 template <class Real>
 physics::Scene<Real> scene_in(const RandomShot& shot) {
-  physics::Scene<Real> scene{shot.table, shot.materials, {}, {}};
-  scene.balls.count = shot.balls.count;
-  for (std::size_t i = 0; i < shot.balls.count; ++i) {
-    scene.balls[i].id = shot.balls[i].id;
-    scene.balls[i].position = {Real(shot.balls[i].position.x), Real(shot.balls[i].position.y)};
-  }
-  scene.shot = physics::cue_shot_from_degrees<Real>(Real(shot.shot.a), Real(shot.shot.b),
-                                                    Real(shot.shot.theta), Real(shot.shot.phi),
-                                                    Real(shot.shot.v));
-  return scene;
+  protocol::SceneFile file;
+  file.table = shot.table;
+  file.materials = shot.materials;
+  file.balls = shot.balls;
+  file.shot = shot.shot;
+  return protocol::scene_of<Real>(file);
 }
 
 template <class Real>
