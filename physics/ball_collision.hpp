@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "physics/ball_friction.hpp"
+#include "physics/lean.hpp"
 #include "physics/motion.hpp"
 
 namespace poolhall::physics {
@@ -66,15 +67,14 @@ void rub(Ball<Real>& first, Ball<Real>& second, const Vec2<Real>& n, const Real&
   second.angular_velocity = second.angular_velocity - twist;
 }
 
-template <class Real>
-[[nodiscard]] bool has_friction(const BallFriction& friction) {
+[[nodiscard]] inline bool has_friction(const BallFriction& friction) {
   const auto* constant = std::get_if<ConstantFriction>(&friction);
   return constant == nullptr || constant->coefficient > 0;
 }
 
 // Both balls right after their impact; they leave each other at the separation speed at least,
 // and friction comes from the impulse so raised.
-template <class Real>
+template <class Policy = Lean, class Real>
 [[nodiscard]] PairAfter<Real> collide(const Ball<Real>& first, const Ball<Real>& second,
                                       const Coefficients<Real>& c, const BallFriction& friction) {
   PairAfter<Real> after{first, second, {}, false};
@@ -86,7 +86,7 @@ template <class Real>
   const Real normal = (closing + (after.raised ? c.separation_speed : leaving)) / Real(2);
   after.first.velocity = first.velocity - normal * n;
   after.second.velocity = second.velocity + normal * n;
-  if (has_friction<Real>(friction)) {
+  if (!Policy::omits(Omission::ball_friction) || has_friction(friction)) {
     const ContactSlip<Real> slip = contact_slip(first, second, n, c.radius);
     rub(after.first, after.second, n, normal, slip, c, friction);
   }

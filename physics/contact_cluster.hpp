@@ -3,8 +3,8 @@
 // touching when the push arrives.
 //
 //   ContactCluster<double> cluster(coefficients);
-//   cluster.gather(balls, present, i, k);  // the balls as they are now; i and k have met
-//   cluster.resolve(balls, friction);      // `balls` as they are afterwards
+//   cluster.gather(balls, present, i, k, model);  // the balls as they are now; i and k have met
+//   cluster.resolve(balls, friction, model);      // `balls` as they are afterwards
 #pragma once
 
 #include <algorithm>
@@ -12,7 +12,8 @@
 
 #include "physics/ball_collision.hpp"
 #include "physics/generalized_reflections.hpp"
-#include "physics/hertz.hpp"
+#include "physics/hertz_impact.hpp"
+#include "physics/simulator.hpp"
 
 namespace poolhall::physics {
 
@@ -31,19 +32,20 @@ class ContactCluster {
   using Indices = std::uint32_t;  // a set of ball indices, one bit each
 
   explicit ContactCluster(const Coefficients<Real>& c)
-      : c_(c), unit_gap_(Real(0.6) * hertz_compression_at_unit_speed(c)) {}
+      : c_(c), unit_gap_(Real(0.6) * hertz_compression_at_unit_speed(c)), hertz_(c) {}
 
   // A cheap upper bound of the threshold at that closing speed: v^(4/5) <= 1 + v.
-  [[nodiscard]] Real widest_gap(const Real& closing) const {
-    return unit_gap_ * (Real(1) + closing);
+  [[nodiscard]] Real widest_gap(const Real& closing, ContactModel model) const {
+    return widening(model) * unit_gap_ * (Real(1) + closing);
   }
 
   // Contact 0 is that of i and k. The threshold grows with the largest closing speed among the
   // contacts it lets in, until it lets in no more.
-  void gather(const Balls& balls, Indices present, std::size_t i, std::size_t k) {
+  void gather(const Balls& balls, Indices present, std::size_t i, std::size_t k,
+              ContactModel model) {
     Real fastest = closing_speed(balls, i, k);
     for (;;) {
-      collect(balls, present, i, k, unit_gap_ * four_fifths_power(fastest));
+      collect(balls, present, i, k, widening(model) * unit_gap_ * four_fifths_power(fastest));
       Real found = fastest;
       for (std::size_t n = 0; n < graph_.contacts(); ++n) {
         found = std::max(found, Real(-graph_.separating(n)));
@@ -58,8 +60,12 @@ class ContactCluster {
   [[nodiscard]] std::size_t contacts() const { return graph_.contacts(); }
 
   // The balls after the impact; those that took no impulse are left as they were.
-  void resolve(Balls& balls, const BallFriction& friction) {
-    reflections_.resolve(graph_, c_.restitution, c_.separation_speed);
+  void resolve(Balls& balls, const BallFriction& friction, ContactModel model) {
+    if (model == ContactModel::hertz) {
+      integrate(balls);
+    } else {
+      reflections_.resolve(graph_, c_.restitution, c_.separation_speed);
+    }
     const Balls before = balls;
     changed_ = 0;
     hit_count_ = 0;
@@ -74,7 +80,7 @@ class ContactCluster {
         balls[member_[p]].velocity = graph_.velocity(p);
       }
     }
-    if (has_friction<Real>(friction)) {
+    if (has_friction(friction)) {
       rub_all(before, balls, friction);
     }
     for (std::size_t p = 0; p < graph_.balls(); ++p) {
@@ -95,6 +101,11 @@ class ContactCluster {
   [[nodiscard]] const ClusterHit<Real>& hit(std::size_t n) const { return hits_[n]; }
 
  private:
+  // While a spring is compressed the balls move: more of them take part.
+  [[nodiscard]] static Real widening(ContactModel model) {
+    return Real(model == ContactModel::hertz ? 10 : 1);
+  }
+
   [[nodiscard]] static Real closing_speed(const Balls& balls, std::size_t i, std::size_t k) {
     const Vec2<Real> n = contact_normal(balls[i].position, balls[k].position);
     return dot(balls[i].velocity - balls[k].velocity, n);
@@ -142,6 +153,16 @@ class ContactCluster {
     return (i == member_[0] && k == member_[1]) || (i == member_[1] && k == member_[0]);
   }
 
+  void integrate(const Balls& balls) {
+    const ContactGraph<Real> before = graph_;
+    std::array<Vec2<Real>, max_balls> positions{};
+    for (std::size_t p = 0; p < graph_.balls(); ++p) {
+      positions[p] = balls[member_[p]].position;
+    }
+    hertz_.integrate(graph_, positions);
+    reflections_.adopt(graph_, before, hertz_, c_.separation_speed);
+  }
+
   void note_hit(const Balls& balls, std::size_t i, std::size_t k, std::size_t contact) {
     changed_ |= (Indices{1} << i) | (Indices{1} << k);
     const bool ordered = balls[i].id < balls[k].id;
@@ -166,6 +187,7 @@ class ContactCluster {
   Real unit_gap_{};  // m, threshold at a closing speed of 1 m/s
   ContactGraph<Real> graph_;
   GeneralizedReflections<Real> reflections_;
+  HertzImpact<Real> hertz_;
   std::array<std::size_t, max_balls> member_{};  // ball index by place in the graph
   std::array<std::size_t, max_balls> place_{};
   std::array<ClusterHit<Real>, max_contacts> hits_{};

@@ -2,16 +2,20 @@
 #pragma once
 
 #include "physics/detect_pair.hpp"
+#include "physics/lean.hpp"
 #include "physics/quartic_closed_form.hpp"
 #include "physics/simulator.hpp"
 
 namespace poolhall::physics {
 
-template <class Real>
+template <class Policy = Lean, class Real>
 [[nodiscard]] std::optional<Real> first_contact(const PairMotion<Real>& p, const Real& T,
                                                 RootSolver solver) {
   if (solver == RootSolver::bracketed) {
-    return first_contact(p, T);
+    if constexpr (Policy::omits(Omission::clear_pairs)) {
+      return first_contact(p, T);
+    }
+    return search_contact(p, gap_polynomial(p), T);
   }
   return closed_form_contact(p, T, solver == RootSolver::closed_form ? Polish::no : Polish::yes);
 }

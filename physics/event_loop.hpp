@@ -21,12 +21,13 @@
 #include "physics/cushion.hpp"
 #include "physics/energy.hpp"
 #include "physics/jaws.hpp"
+#include "physics/lean.hpp"
 #include "physics/simulator.hpp"
 #include "physics/watch.hpp"
 
 namespace poolhall::physics {
 
-template <class Real>
+template <class Real, class Policy = Lean>
 class EventLoop {
  public:
   EventLoop(const Table& table, const Materials& materials)

@@ -3,8 +3,8 @@
 
 namespace poolhall::physics {
 
-template <class Real>
-void EventLoop<Real>::place(const BallSet<Real>& balls) {
+template <class Real, class Policy>
+void EventLoop<Real, Policy>::place(const BallSet<Real>& balls) {
   count_ = balls.count;
   now_ = last_ = {};
   events_ = 0;
@@ -18,8 +18,8 @@ void EventLoop<Real>::place(const BallSet<Real>& balls) {
 }
 
 // From now on ball i moves as `ball`; who it meets is found by `refresh`.
-template <class Real>
-void EventLoop<Real>::begin_motion(std::size_t i, const Ball<Real>& ball) {
+template <class Real, class Policy>
+void EventLoop<Real, Policy>::begin_motion(std::size_t i, const Ball<Real>& ball) {
   Body& body = bodies_[i];
   body.motion = segment(ball, now_, c_);
   body.moves = ball.state == MotionState::rolling || ball.state == MotionState::sliding;
@@ -36,8 +36,12 @@ void EventLoop<Real>::begin_motion(std::size_t i, const Ball<Real>& ball) {
   if (body.moves) {
     body.across = span(s.position.x, s.velocity.x, s.acceleration.x, s.duration);
     body.along = span(s.position.y, s.velocity.y, s.acceleration.y, s.duration);
-    body.hit = has_jaws_ ? jaws_.first_hit(s, body.across, body.along, s.duration, solver_)
-                         : first_hit(boundary_, s, body.across, body.along, s.duration);
+    const Span<Real> all{-forever<Real>(), forever<Real>()};
+    const bool near_only = Policy::omits(Omission::far_rails);
+    const Span<Real>& across = near_only ? body.across : all;
+    const Span<Real>& along = near_only ? body.along : all;
+    body.hit = has_jaws_ ? jaws_.first_hit(s, across, along, s.duration, solver_)
+                         : first_hit(boundary_, s, across, along, s.duration);
     if (body.hit.kind != HitKind::none) {
       body.across = span(s.position.x, s.velocity.x, s.acceleration.x, body.hit.t);
       body.along = span(s.position.y, s.velocity.y, s.acceleration.y, body.hit.t);
@@ -54,8 +58,8 @@ void EventLoop<Real>::begin_motion(std::size_t i, const Ball<Real>& ball) {
 // Balls of `changed` have new motions. Whoever expected to meet one of them looks again as well:
 // it had not looked beyond that meeting. Then for each pair the first contact is not before the
 // earlier of both balls' next events, so that the earliest `next` of all is the next event.
-template <class Real>
-void EventLoop<Real>::refresh(Indices changed) {
+template <class Real, class Policy>
+void EventLoop<Real, Policy>::refresh(Indices changed) {
   Indices stale = changed;
   for (std::size_t k = 0; k < count_; ++k) {
     const Candidate& next = bodies_[k].next;
@@ -77,12 +81,19 @@ void EventLoop<Real>::refresh(Indices changed) {
   }
 }
 
-template <class Real>
-void EventLoop<Real>::sweep(std::size_t i, Indices done) {
+template <class Real, class Policy>
+void EventLoop<Real, Policy>::sweep(std::size_t i, Indices done) {
   const Body& body = bodies_[i];
   for (std::size_t k = 0; k < count_; ++k) {
     const Body& other = bodies_[k];
-    if (k == i || ((done >> k) & 1U) != 0 || other.down || !(body.moves || other.moves)) {
+    if (k == i || ((done >> k) & 1U) != 0 || other.down) {
+      continue;
+    }
+    if (Policy::omits(Omission::pairs_at_rest) && !(body.moves || other.moves)) {
+      continue;
+    }
+    if (!Policy::omits(Omission::far_pairs)) {
+      look_for_contact(i, k);
       continue;
     }
     if (body.across.low > other.across.high + c_.diameter ||
@@ -95,13 +106,16 @@ void EventLoop<Real>::sweep(std::size_t i, Indices done) {
   }
 }
 
-template <class Real>
-void EventLoop<Real>::look_for_contact(std::size_t i, std::size_t k) {
+template <class Real, class Policy>
+void EventLoop<Real, Policy>::look_for_contact(std::size_t i, std::size_t k) {
   Body& one = bodies_[i];
   Body& other = bodies_[k];
-  const Instant<Real>& until = one.next.at < other.next.at ? one.next.at : other.next.at;
+  const bool clip = Policy::omits(Omission::late_contacts);
+  const Instant<Real>& one_until = clip ? one.next.at : one.own.at;
+  const Instant<Real>& other_until = clip ? other.next.at : other.own.at;
+  const Instant<Real>& until = one_until < other_until ? one_until : other_until;
   const PairMotion<Real> pair = pair_motion(one.motion, other.motion, now_, c_);
-  const std::optional<Real> t = first_contact(pair, Real(until - now_), solver_);
+  const std::optional<Real> t = first_contact<Policy>(pair, Real(until - now_), solver_);
   if (!t) {
     return;
   }
@@ -114,8 +128,8 @@ void EventLoop<Real>::look_for_contact(std::size_t i, std::size_t k) {
   }
 }
 
-template <class Real>
-bool EventLoop<Real>::precedes(std::size_t i, std::size_t k) const {
+template <class Real, class Policy>
+bool EventLoop<Real, Policy>::precedes(std::size_t i, std::size_t k) const {
   const Candidate& p = bodies_[i].next;
   const Candidate& q = bodies_[k].next;
   if (!(p.at == q.at)) {
@@ -124,8 +138,8 @@ bool EventLoop<Real>::precedes(std::size_t i, std::size_t k) const {
   return p.what != q.what ? p.what < q.what : bodies_[i].id < bodies_[k].id;
 }
 
-template <class Real>
-std::size_t EventLoop<Real>::earliest() const {
+template <class Real, class Policy>
+std::size_t EventLoop<Real, Policy>::earliest() const {
   std::size_t best = 0;
   for (std::size_t i = 1; i < count_; ++i) {
     if (precedes(i, best)) {
@@ -135,8 +149,8 @@ std::size_t EventLoop<Real>::earliest() const {
   return best;
 }
 
-template <class Real>
-Ball<Real> EventLoop<Real>::ball_now(std::size_t i) const {
+template <class Real, class Policy>
+Ball<Real> EventLoop<Real, Policy>::ball_now(std::size_t i) const {
   const Body& body = bodies_[i];
   if (body.down) {
     return balls_[i];
@@ -144,22 +158,22 @@ Ball<Real> EventLoop<Real>::ball_now(std::size_t i) const {
   return ball_at(body.motion, body.id, Real(now_ - body.motion.start), c_);
 }
 
-template <class Real>
-Hop EventLoop<Real>::hop(const Real& closing) const {
+template <class Real, class Policy>
+Hop EventLoop<Real, Policy>::hop(const Real& closing) const {
   // A ball that left at the separation speed comes back with it, but for rounding.
   return closing <= c_.separation_speed * (Real(1) + Real(1e-6)) ? Hop::yes : Hop::no;
 }
 
-template <class Real>
-void EventLoop<Real>::account(const Real& before, const Real& after) {
+template <class Real, class Policy>
+void EventLoop<Real, Policy>::account(const Real& before, const Real& after) {
   if (after > before) {
     energy_.added_by_separation += after - before;
   }
 }
 
-template <class Real>
+template <class Real, class Policy>
 template <class Watch>
-Go EventLoop<Real>::tell(Watch& watch, const Event<Real>& event, Hop hop_kind) {
+Go EventLoop<Real, Policy>::tell(Watch& watch, const Event<Real>& event, Hop hop_kind) {
   if constexpr (Watch::records) {
     watch.record(event, hop_kind);
   }
@@ -167,9 +181,9 @@ Go EventLoop<Real>::tell(Watch& watch, const Event<Real>& event, Hop hop_kind) {
       {event.type, event.after[0].id, event.after[event.ball_count - 1U].id, event.pocket});
 }
 
-template <class Real>
+template <class Real, class Policy>
 template <class Watch>
-Go EventLoop<Real>::transition(std::size_t i, Watch& watch) {
+Go EventLoop<Real, Policy>::transition(std::size_t i, Watch& watch) {
   const Ball<Real> after = after_transition(bodies_[i].motion, bodies_[i].id, c_);
   begin_motion(i, after);
   refresh(Indices{1} << i);
@@ -180,9 +194,9 @@ Go EventLoop<Real>::transition(std::size_t i, Watch& watch) {
   return tell(watch, event, Hop::no);
 }
 
-template <class Real>
+template <class Real, class Policy>
 template <class Watch>
-Go EventLoop<Real>::pocket(std::size_t i, Watch& watch) {
+Go EventLoop<Real, Policy>::pocket(std::size_t i, Watch& watch) {
   Body& body = bodies_[i];
   Ball<Real> after;
   after.id = body.id;
@@ -202,9 +216,9 @@ Go EventLoop<Real>::pocket(std::size_t i, Watch& watch) {
 }
 
 // The model runs unraised; then only the normal speed is raised to the separation speed.
-template <class Real>
+template <class Real, class Policy>
 template <class Watch>
-Go EventLoop<Real>::bounce(std::size_t i, Watch& watch) {
+Go EventLoop<Real, Policy>::bounce(std::size_t i, Watch& watch) {
   const Body& body = bodies_[i];
   const RailId rail = body.hit.rail;
   const Vec2<Real> inward = Real(-1) * body.hit.into;
@@ -231,14 +245,14 @@ Go EventLoop<Real>::bounce(std::size_t i, Watch& watch) {
 }
 
 // Whether a third ball may be close enough to i or k to be hit together with them.
-template <class Real>
-bool EventLoop<Real>::is_crowded(std::size_t i, std::size_t k) const {
+template <class Real, class Policy>
+bool EventLoop<Real, Policy>::is_crowded(std::size_t i, std::size_t k) const {
   const Real t_i = now_ - bodies_[i].motion.start;
   const Real t_k = now_ - bodies_[k].motion.start;
   const Vec2<Real> at_i = position_at(bodies_[i].motion, t_i);
   const Vec2<Real> at_k = position_at(bodies_[k].motion, t_k);
   const Vec2<Real> v = velocity_at(bodies_[i].motion, t_i) - velocity_at(bodies_[k].motion, t_k);
-  const Real reach = c_.diameter + cluster_.widest_gap(length(v));
+  const Real reach = c_.diameter + cluster_.widest_gap(length(v), contact_);
   for (std::size_t j = 0; j < count_; ++j) {
     if (j == i || j == k || bodies_[j].down) {
       continue;
@@ -252,9 +266,9 @@ bool EventLoop<Real>::is_crowded(std::size_t i, std::size_t k) const {
   return false;
 }
 
-template <class Real>
+template <class Real, class Policy>
 template <class Watch>
-Go EventLoop<Real>::meet_together(std::size_t i, std::size_t k, Watch& watch) {
+Go EventLoop<Real, Policy>::meet_together(std::size_t i, std::size_t k, Watch& watch) {
   typename ContactCluster<Real>::Balls balls{};
   Indices present = 0;
   for (std::size_t j = 0; j < count_; ++j) {
@@ -263,12 +277,12 @@ Go EventLoop<Real>::meet_together(std::size_t i, std::size_t k, Watch& watch) {
       present |= Indices{1} << j;
     }
   }
-  cluster_.gather(balls, present, i, k);
+  cluster_.gather(balls, present, i, k, contact_);
   Real before(0), after(0);
   for (const Ball<Real>& ball : balls) {
     before += kinetic_energy(ball, c_);
   }
-  cluster_.resolve(balls, materials_.ball_friction);
+  cluster_.resolve(balls, materials_.ball_friction, contact_);
   for (std::size_t j = 0; j < count_; ++j) {
     after += kinetic_energy(balls[j], c_);
     if (((cluster_.changed() >> j) & 1U) != 0) {
@@ -295,18 +309,19 @@ Go EventLoop<Real>::meet_together(std::size_t i, std::size_t k, Watch& watch) {
   return go;
 }
 
-template <class Real>
+template <class Real, class Policy>
 template <class Watch>
-Go EventLoop<Real>::meet(std::size_t i, std::size_t k, Watch& watch) {
+Go EventLoop<Real, Policy>::meet(std::size_t i, std::size_t k, Watch& watch) {
   if (bodies_[k].id < bodies_[i].id) {
     return meet(k, i, watch);
   }
-  if (contact_ != ContactModel::sequential && is_crowded(i, k)) {
+  if (contact_ != ContactModel::sequential &&
+      (!Policy::omits(Omission::far_neighbours) || is_crowded(i, k))) {
     return meet_together(i, k, watch);
   }
   const Ball<Real> first = ball_now(i);
   const Ball<Real> second = ball_now(k);
-  const PairAfter<Real> after = collide(first, second, c_, materials_.ball_friction);
+  const PairAfter<Real> after = collide<Policy>(first, second, c_, materials_.ball_friction);
   if (after.raised) {
     account(kinetic_energy(first, c_) + kinetic_energy(second, c_),
             kinetic_energy(after.first, c_) + kinetic_energy(after.second, c_));
@@ -322,9 +337,9 @@ Go EventLoop<Real>::meet(std::size_t i, std::size_t k, Watch& watch) {
   return tell(watch, event, hop(after.closing));
 }
 
-template <class Real>
+template <class Real, class Policy>
 template <class Watch>
-Go EventLoop<Real>::happen(std::size_t i, Watch& watch) {
+Go EventLoop<Real, Policy>::happen(std::size_t i, Watch& watch) {
   const Candidate next = bodies_[i].next;
   now_ = last_ = next.at;
   ++events_;
@@ -343,8 +358,8 @@ Go EventLoop<Real>::happen(std::size_t i, Watch& watch) {
   return Go::stop;
 }
 
-template <class Real>
-Real EventLoop<Real>::energy_now() const {
+template <class Real, class Policy>
+Real EventLoop<Real, Policy>::energy_now() const {
   Real sum(0);
   for (std::size_t i = 0; i < count_; ++i) {
     if (!bodies_[i].down) {
@@ -354,8 +369,8 @@ Real EventLoop<Real>::energy_now() const {
   return sum;
 }
 
-template <class Real>
-void EventLoop<Real>::finish(const Instant<Real>& at) {
+template <class Real, class Policy>
+void EventLoop<Real, Policy>::finish(const Instant<Real>& at) {
   now_ = at;
   energy_.end = energy_now();
   for (std::size_t i = 0; i < count_; ++i) {
@@ -363,10 +378,11 @@ void EventLoop<Real>::finish(const Instant<Real>& at) {
   }
 }
 
-template <class Real>
+template <class Real, class Policy>
 template <class Watch>
-Ending EventLoop<Real>::run(const BallSet<Real>& balls, const std::optional<CueShot<Real>>& shot,
-                            const SimulationOptions& options, Watch& watch) {
+Ending EventLoop<Real, Policy>::run(const BallSet<Real>& balls,
+                                    const std::optional<CueShot<Real>>& shot,
+                                    const SimulationOptions& options, Watch& watch) {
   contact_ = options.contact;
   solver_ = options.solver;
   place(balls);
@@ -398,9 +414,9 @@ Ending EventLoop<Real>::run(const BallSet<Real>& balls, const std::optional<CueS
   return go == Go::on ? ending : Ending::stopped;
 }
 
-template <class Real>
+template <class Real, class Policy>
 template <class Watch>
-Go EventLoop<Real>::strike_cue_ball(const CueShot<Real>& shot, Watch& watch) {
+Go EventLoop<Real, Policy>::strike_cue_ball(const CueShot<Real>& shot, Watch& watch) {
   for (std::size_t i = 0; i < count_; ++i) {
     if (bodies_[i].id != cue_ball || bodies_[i].down) {
       continue;

@@ -30,6 +30,17 @@ class GeneralizedReflections {
     separate(graph, separation_speed);
   }
 
+  // For impulses that another model found: `graph` has the velocities after them.
+  template <class Model>
+  void adopt(ContactGraph<Real>& graph, const ContactGraph<Real>& before, const Model& model,
+             const Real& separation_speed) {
+    start(before, separation_speed);
+    for (std::size_t k = 0; k < graph.contacts(); ++k) {
+      impulse_[k] = model.impulse(k);
+    }
+    separate(graph, separation_speed);
+  }
+
   [[nodiscard]] const Real& impulse(std::size_t k) const { return impulse_[k]; }
   [[nodiscard]] bool took_impulse(std::size_t k) const { return ((takers_ >> k) & 1U) != 0; }
   [[nodiscard]] bool raised() const { return raised_; }
