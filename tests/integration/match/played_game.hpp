@@ -1,4 +1,5 @@
-// Games played to the end (or to a number of turns) by two players who shoot at random, through
+// Games played to the end (or to a number of turns) by two players who shoot at random (softly,
+// so that a game lasts), through
 // match::Game and a real database, one turn a transaction.
 //
 //   PlayedGame played(*database, order_of(GameId{1}), 7);
@@ -27,7 +28,7 @@ inline GameOrder order_of(std::int64_t id) {
   GameOrder order;
   order.id = protocol::GameId{id};
   order.match = protocol::MatchId{1};
-  order.number = static_cast<std::uint32_t>(id - 1);
+  order.number = static_cast<std::uint32_t>(2 * id);
   order.agents = {storage::AgentId{1}, storage::AgentId{2}};
   order.terms.rack_gap = 1e-4;
   order.terms.increment = storage::Micros{1'000'000};
@@ -120,7 +121,7 @@ class PlayedGame {
                    .b = between(-8, 8),
                    .theta = between(1, 12),
                    .phi = degrees < 0 ? degrees + 360 : degrees,
-                   .v = between(2, 6)};
+                   .v = state.kind == rules::TurnKind::break_shot ? 6 : between(0.8, 2)};
     if (state.kind != rules::TurnKind::break_shot)
       shot.call = {rules::Call::Kind::pocket, target,
                    static_cast<physics::PocketId>(below(physics::pocket_count))};

@@ -77,7 +77,8 @@ Motions motions_at(const storage::TurnRecord& row, double t) {
   }
   if (row.shot->cue_ball)
     motions[0] = {.at = {row.shot->cue_ball->x, row.shot->cue_ball->y}};
-  for (const auto& event : protocol::decode_events(row.shot->events).value()) {
+  const auto events = protocol::decode_events(row.shot->events).value();
+  for (const auto& event : events) {
     if (event.t > t)
       break;
     for (std::size_t i = 0; i < event.ball_count; ++i)

@@ -62,6 +62,8 @@ std::string changed(const std::string& column, const std::string& type) {
   const auto toggled = [](const std::string& x) {
     return "CASE WHEN (" + x + ") & 1 THEN (" + x + ") - 1 ELSE (" + x + ") + 1 END";
   };
+  if (column == "number")
+    return column + " + 1048576";  // with its least bit changed it would be another row's
   if (type == "integer")
     return toggled(column);
   if (type == "real")
