@@ -4,7 +4,6 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
-#include <boost/asio/ip/address.hpp>
 #include <csignal>
 #include <iostream>
 #include <memory>
@@ -35,12 +34,6 @@ int fail(const std::string& reason, int code) {
   return code;
 }
 
-bool is_loopback(const std::string& listen) {
-  const auto endpoint = net::parse_endpoint(listen);
-  boost::system::error_code error;
-  return endpoint && boost::asio::ip::make_address(endpoint->host, error).is_loopback();
-}
-
 // One line an event; JSON for machines. Nothing that is logged contains a token.
 void set_up_log(const settings::LogSettings& log) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("poolhall"));
@@ -69,10 +62,11 @@ int run_server(const ServeArguments& arguments) {
     options.settings = *loaded;
   }
   override_with(arguments, options.settings);
-  if (!net::parse_endpoint(options.settings.listen)) {
+  const auto listen = net::parse_endpoint(options.settings.listen);
+  if (!listen) {
     return fail("--listen: got \"" + options.settings.listen + "\", expected HOST:PORT", 2);
   }
-  if (!is_loopback(options.settings.listen) && !arguments.plain_beyond_loopback) {
+  if (!net::is_loopback(*listen) && !arguments.plain_beyond_loopback) {
     return fail(options.settings.listen +
                     " is open to others and not encrypted; --plain-beyond-loopback allows it",
                 2);

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/address.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/signal_set.hpp>
 #include <boost/asio/thread_pool.hpp>
@@ -94,6 +95,11 @@ std::optional<Endpoint> parse_endpoint(const std::string& text) {
     return std::nullopt;
   }
   return endpoint;
+}
+
+bool is_loopback(const Endpoint& endpoint) {
+  boost::system::error_code error;
+  return boost::asio::ip::make_address(endpoint.host, error).is_loopback();
 }
 
 std::string to_string(const Endpoint& endpoint) {

@@ -30,6 +30,8 @@ struct Endpoint {
 // "127.0.0.1:7777", "[::1]:7777"; nothing if it is neither.
 [[nodiscard]] std::optional<Endpoint> parse_endpoint(const std::string& text);
 [[nodiscard]] std::string to_string(const Endpoint& endpoint);
+// Whether only this machine can connect to it.
+[[nodiscard]] bool is_loopback(const Endpoint& endpoint);
 
 struct ServerOptions {
   settings::ServerSettings settings;  // port 0 picks a free one; an empty `http` is no page
