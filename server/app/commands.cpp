@@ -5,8 +5,12 @@ namespace poolhall::app {
 void add_commands(CLI::App& app, int& exit_code) {
   add_bench_command(app, exit_code);
   add_bot_command(app, exit_code);
+  add_export_command(app, exit_code);
+  add_replay_command(app, exit_code);
   add_serve_command(app, exit_code);
   add_simulate_command(app, exit_code);
+  add_tournament_command(app, exit_code);
+  add_verify_command(app, exit_code);
 }
 
 }  // namespace poolhall::app

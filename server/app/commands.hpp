@@ -12,7 +12,11 @@ void add_commands(CLI::App& app, int& exit_code);
 
 void add_bench_command(CLI::App& app, int& exit_code);
 void add_bot_command(CLI::App& app, int& exit_code);
+void add_export_command(CLI::App& app, int& exit_code);
+void add_replay_command(CLI::App& app, int& exit_code);
 void add_serve_command(CLI::App& app, int& exit_code);
 void add_simulate_command(CLI::App& app, int& exit_code);
+void add_tournament_command(CLI::App& app, int& exit_code);
+void add_verify_command(CLI::App& app, int& exit_code);
 
 }  // namespace poolhall::app
