@@ -33,6 +33,9 @@ class Exhibition {
       ++game_.turns;
       play_turn();
     }
+    if (!state_.result) {
+      game_.fault = "more than " + std::to_string(settings_.most_turns) + " turns";
+    }
     game_.result =
         state_.result.value_or(rules::GameResult{std::nullopt, rules::EndReason::void_game});
     return game_;
@@ -92,15 +95,21 @@ class Exhibition {
     const auto simulation = physics::simulate(
         physics::Scene<double>{table_, materials_, balls, protocol::to_physics(executed.params)},
         {});
-    const auto ruling =
-        simulation ? rules::judge(*ready, shot.call, simulation->events, table_, materials_)
-                   : rules::Expected<rules::Ruling>{tl::unexpect, rules::Refusal{}};
+    if (!simulation) {
+      return give_up("simulate: " + simulation.error().field + " " + simulation.error().reason);
+    }
+    const auto ruling = rules::judge(*ready, shot.call, simulation->events, table_, materials_);
     if (!ruling) {
-      state_ = rules::ended(state_, {std::nullopt, rules::EndReason::void_game});
-      return true;
+      return give_up("judge: " + ruling.error().field + " " + ruling.error().reason);
     }
     record(game_.seats[rules::index(seat)], seat, *ruling);
     state_ = ruling->next;
+    return true;
+  }
+
+  bool give_up(std::string fault) {
+    game_.fault = std::move(fault);
+    state_ = rules::ended(state_, {std::nullopt, rules::EndReason::void_game});
     return true;
   }
 

@@ -36,11 +36,13 @@ struct SeatRecord {
 
 struct ExhibitionGame {
   rules::GameResult result{};
+  std::string fault{};  // why the game is void
   std::uint32_t turns = 0;
   std::array<SeatRecord, 2> seats{};  // by seat
 };
 
-// Ends with EndReason::void_game if the turns run out or the simulator or the referee refuses.
+// Ends with EndReason::void_game with `fault` if the turns run out or the simulator or the
+// referee refuses.
 [[nodiscard]] ExhibitionGame play_exhibition(const ExhibitionSettings& settings,
                                              const std::array<client::PlayerFactory, 2>& players);
 
