@@ -334,6 +334,12 @@ void Arena::storage_health(const storage::WriterHealth& health) {
   }
 }
 
+void Arena::for_each_game(const std::function<void(const LiveGame&)>& visit) const {
+  for (const auto& [id, game] : games_) {
+    visit(*game);
+  }
+}
+
 ArenaFigures Arena::figures() const {
   ArenaFigures figures;
   figures.connections = sessions_.size();

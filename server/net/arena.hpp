@@ -68,6 +68,7 @@ class Arena final : public Lobby {
 
   [[nodiscard]] MatchHost& host() { return tournaments_; }
   [[nodiscard]] ArenaFigures figures() const;
+  void for_each_game(const std::function<void(const LiveGame&)>& visit) const;
 
   // Lobby.
   [[nodiscard]] const protocol::Limits& limits() const override { return settings_.limits; }

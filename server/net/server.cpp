@@ -16,9 +16,11 @@
 #include <utility>
 
 #include "server/net/arena.hpp"
+#include "server/net/figures.hpp"
 #include "server/net/listener.hpp"
 #include "server/net/socket_options.hpp"
 #include "server/storage/sqlite_database.hpp"
+#include "server/web/http_server.hpp"
 
 namespace poolhall::net {
 
@@ -126,10 +128,13 @@ class Server::Impl {
     asio::post(io_, [this, work = std::move(work)] { work(arena_->host()); });
   }
   [[nodiscard]] Endpoint agents() const { return agents_; }
+  [[nodiscard]] std::optional<Endpoint> page() const { return page_; }
 
  private:
   tl::expected<void, std::string> open_database();
   tl::expected<void, std::string> listen();
+  tl::expected<void, std::string> listen_http();
+  tl::expected<void, std::string> say_ready();
   void watch_signals();
   void begin_stop();
   void shut();
@@ -142,7 +147,9 @@ class Server::Impl {
   std::unique_ptr<Arena> arena_;
   std::unique_ptr<Listener> listener_;
   std::unique_ptr<asio::signal_set> signals_;
+  std::unique_ptr<web::HttpServer> http_;
   Endpoint agents_;
+  std::optional<Endpoint> page_;
   bool stopping_ = false;
   bool shut_ = false;
   bool said_ready_ = false;
@@ -156,21 +163,32 @@ tl::expected<void, std::string> Server::Impl::start() {
   if (auto listening = listen(); !listening) {
     return listening;
   }
+  if (auto listening = listen_http(); !listening) {
+    return listening;
+  }
   if (options_.signals == Signals::handled) {
     watch_signals();
   }
   arena_->begin(
       {options_.program, to_string(reachable(agents_)), options_.settings.max_house_bots});
   listener_->start();
-  spdlog::info("agents on {}, database {}, process {}", to_string(agents_),
-               options_.settings.database, ::getpid());
-  if (options_.ready_file) {
-    said_ready_ = true;
-    return write_ready_file(*options_.ready_file,
-                            fmt::format("{{\"agents\": \"{}\", \"http\": null, \"pid\": {}}}\n",
-                                        to_string(agents_), ::getpid()));
+  if (http_) {
+    http_->start();
   }
-  return {};
+  spdlog::info("agents on {}, page on {}, database {}, process {}", to_string(agents_),
+               page_ ? to_string(*page_) : "no port", options_.settings.database, ::getpid());
+  return say_ready();
+}
+
+tl::expected<void, std::string> Server::Impl::say_ready() {
+  if (!options_.ready_file) {
+    return {};
+  }
+  said_ready_ = true;
+  return write_ready_file(
+      *options_.ready_file,
+      fmt::format("{{\"agents\": \"{}\", \"http\": {}, \"pid\": {}}}\n", to_string(agents_),
+                  page_ ? '"' + to_string(*page_) + '"' : "null", ::getpid()));
 }
 
 tl::expected<void, std::string> Server::Impl::open_database() {
@@ -216,6 +234,36 @@ tl::expected<void, std::string> Server::Impl::listen() {
   return {};
 }
 
+tl::expected<void, std::string> Server::Impl::listen_http() {
+  if (options_.settings.http.empty()) {
+    return {};
+  }
+  const auto endpoint = endpoint_of(options_.settings.http);
+  if (!endpoint) {
+    return tl::unexpected(endpoint.error());
+  }
+  web::Sources sources;
+  sources.read = [this](std::function<web::Page(storage::Reader&)> work,
+                        std::function<void(web::Page)> then) {
+    archive_->read(
+        [work = std::move(work)](storage::Reader& reader) -> storage::Expected<web::Page> {
+          return work(reader);
+        },
+        [then = std::move(then)](storage::Expected<web::Page> page) {
+          then(page ? std::move(*page) : web::refusal(503, "database", page.error().reason));
+        });
+  };
+  sources.health = [this] { return health_page(arena_->figures()); };
+  sources.metrics = [this] { return metrics_of(arena_->figures(), writer_->statistics()); };
+  sources.live = [this] { return live_json(*arena_); };
+  http_ = std::make_unique<web::HttpServer>(io_, std::move(sources));
+  if (auto bound = http_->open(endpoint->host, endpoint->port); !bound) {
+    return bound;
+  }
+  page_ = Endpoint{endpoint->host, http_->port()};
+  return {};
+}
+
 void Server::Impl::watch_signals() {
   signals_ = std::make_unique<asio::signal_set>(io_, SIGTERM, SIGINT);
   signals_->async_wait([this](const boost::system::error_code& error, int) {
@@ -230,6 +278,9 @@ void Server::Impl::begin_stop() {
     return;
   }
   listener_->stop();
+  if (http_) {
+    http_->stop();
+  }
   arena_->stop([this] { io_.stop(); });
 }
 

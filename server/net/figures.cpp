@@ -1,0 +1,65 @@
+#include "server/net/figures.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "protocol/json_writer.hpp"
+
+namespace poolhall::net {
+
+namespace {
+
+template <class Value>
+void metric(std::string& out, std::string_view name, std::string_view type, std::string_view help,
+            Value value) {
+  out += fmt::format("# HELP poolhall_{0} {2}\n# TYPE poolhall_{0} {1}\npoolhall_{0} {3}\n", name,
+                     type, help, value);
+}
+
+}  // namespace
+
+web::Page health_page(const ArenaFigures& figures) {
+  if (figures.storage_in_trouble) {
+    return web::refusal(503, "database", "the database takes nothing; games stand");
+  }
+  return {200, "application/json", "{\"status\":\"ok\"}"};
+}
+
+std::string metrics_of(const ArenaFigures& figures, const storage::WriterStatistics& writing) {
+  std::string out;
+  metric(out, "connections", "gauge", "Agents' connections.", figures.connections);
+  metric(out, "agents_here", "gauge", "Agents that are logged in.", figures.agents_here);
+  metric(out, "agents_known", "gauge", "Agents in the database.", figures.agents_known);
+  metric(out, "games", "gauge", "Games that go on.", figures.games);
+  metric(out, "matches", "gauge", "Matches that go on.", figures.matches);
+  metric(out, "house_bots", "gauge", "Processes of house bots.", figures.house_bots);
+  metric(out, "games_over_total", "counter", "Games that ended.", figures.games_over);
+  metric(out, "storage_in_trouble", "gauge", "1 while the database takes nothing.",
+         figures.storage_in_trouble ? 1 : 0);
+  metric(out, "commits_total", "counter", "Transactions committed.", writing.commits);
+  metric(out, "writes_total", "counter", "Pieces of work committed.", writing.written);
+  metric(out, "writes_waiting", "gauge", "Pieces of work that wait.", writing.waiting);
+  metric(out, "writer_busy_seconds_total", "counter", "Time spent writing.",
+         std::chrono::duration<double>(writing.busy).count());
+  return out;
+}
+
+std::string live_json(const Arena& arena) {
+  protocol::JsonWriter out;
+  out.begin_object().key("games").begin_array();
+  arena.for_each_game([&out](const LiveGame& live) {
+    const match::Game& game = live.game();
+    out.begin_object().key("game").integer(protocol::number(game.record().id));
+    out.key("agents").begin_array();
+    out.string(live.card().names[0]).string(live.card().names[1]).end_array();
+    out.key("turn").integer(game.state().turn);
+    out.key("to_move").integer(rules::index(game.state().to_move));
+    out.key("kind").string(rules::name(game.state().kind));
+    out.key("state").raw(game.state_json()).end_object();
+  });
+  out.end_array().end_object();
+  return std::move(out).text();
+}
+
+}  // namespace poolhall::net
