@@ -54,6 +54,9 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   command->require_subcommand(1);
   add_benchmark(*command, exit_code, "precision",
                 "error against run time, against the 100-digit reference", bench::bench_precision);
+  add_benchmark(*command, exit_code, "rules",
+                "100,000 random games of both rule sets, and what must hold of every game",
+                bench::bench_rules);
   const BenchCommand speed =
       add_benchmark(*command, exit_code, "speed",
                     "microseconds a shot, and against the paper's own scheme", bench::bench_speed);
