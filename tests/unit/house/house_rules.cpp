@@ -1,4 +1,4 @@
-#include "tests/unit/house/house_rules.hpp"
+#include "house_rules.hpp"
 
 #include <algorithm>
 #include <regex>

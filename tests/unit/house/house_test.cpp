@@ -6,7 +6,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "tests/unit/house/house_rules.hpp"
+#include "house_rules.hpp"
 
 namespace poolhall::house {
 namespace {

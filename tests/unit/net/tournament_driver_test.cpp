@@ -1,0 +1,233 @@
+#include "server/net/tournament_driver.hpp"
+
+#include <gmock/gmock.h>
+
+#include <algorithm>
+#include <deque>
+#include <memory>
+
+namespace poolhall::net {
+namespace {
+
+using namespace std::chrono_literals;
+using testing::ElementsAre;
+using testing::HasSubstr;
+using testing::IsEmpty;
+using testing::SizeIs;
+
+// A server in memory: matches end when the test says so. What is stored outlives a driver, as a
+// database does.
+class FakeHost final : public MatchHost {
+ public:
+  TournamentCard open_tournament(const TournamentCard& card) override {
+    if (!stored) {
+      stored = card;
+    }
+    return *stored;
+  }
+  void set_status(const std::string&, TournamentStatus status) override { stored->status = status; }
+  std::vector<TournamentCard> tournaments() const override { return {*stored}; }
+  void enter(const TournamentEntry& entry) override { entered.push_back(entry); }
+  std::vector<TournamentEntry> entries(const std::string&) const override { return entered; }
+  void start_match(const MatchOrder& order) override { orders.push_back(order); }
+  std::vector<MatchOutcome> finished_matches(const std::string&) const override { return finished; }
+  std::vector<MatchOutcome> unfinished_matches(const std::string&) const override {
+    return unfinished;
+  }
+  void on_match_over(std::function<void(const MatchOutcome&)> callback) override {
+    match_over_ = std::move(callback);
+  }
+  void on_game_over(std::function<void(const MatchOrder&, const GameOutcome&)> callback) override {
+    game_over_ = std::move(callback);
+  }
+  void announce_end(const std::string&, const std::vector<protocol::StandingRow>& rows) override {
+    announced = rows;
+  }
+
+  // The oldest order that is not over is played; agents[winner] wins all its games.
+  void play_next(std::uint32_t winner) {
+    const MatchOrder order = orders.at(played++);
+    MatchOutcome outcome{order.tournament, order.pairing, MatchId{order.pairing + 1}, {}};
+    for (std::uint32_t number = 0; number < order.games; ++number) {
+      outcome.games.push_back({.number = number,
+                               .breaker = number % 2,
+                               .winner = winner,
+                               .reason = rules::EndReason::eight_pocketed});
+      game_over_(order, outcome.games.back());
+    }
+    finished.push_back(outcome);
+    match_over_(outcome);
+  }
+  void play_one_game(std::size_t order, std::uint32_t number, std::uint32_t winner) {
+    game_over_(orders.at(order), {.number = number, .breaker = number % 2, .winner = winner});
+  }
+
+  std::optional<TournamentCard> stored;
+  std::vector<TournamentEntry> entered;
+  std::vector<MatchOrder> orders;
+  std::size_t played = 0;
+  std::vector<MatchOutcome> finished;
+  std::vector<MatchOutcome> unfinished;
+  std::vector<protocol::StandingRow> announced;
+
+ private:
+  std::function<void(const MatchOutcome&)> match_over_;
+  std::function<void(const MatchOrder&, const GameOutcome&)> game_over_;
+};
+
+const std::string three_entries =
+    "name = \"cup\"\ngames_per_match = 2\nrules = \"9-ball\"\nnoise = \"low\"\n"
+    "max_concurrent_games = 3\n[clock]\ngame_seconds = 30\n"
+    "[[entry]]\nname = \"light\"\nhouse = \"greedy\"\noptions = {effort = 5}\n"
+    "[[entry]]\nname = \"mine\"\ncommand = \"./mine\"\n"
+    "[[entry]]\nagent = \"Anna\"\n";
+
+settings::TournamentFile file(const std::string& text) {
+  const auto settings = settings::parse_tournament(text, "cup.toml");
+  EXPECT_TRUE(settings);
+  return {settings.value(), text};
+}
+
+class TournamentDriverTest : public testing::Test {
+ protected:
+  TournamentDriver& begin(const std::string& text = three_entries, std::uint64_t seed = 7) {
+    driver_ = std::make_unique<TournamentDriver>(file(text), host_, [this] { return now_; });
+    driver_->on_change([this](const TournamentView& view) { view_ = view; });
+    begun_ = driver_->begin(seed);
+    return *driver_;
+  }
+
+  FakeHost host_;
+  SteadyTime now_{1000s};
+  std::unique_ptr<TournamentDriver> driver_;
+  std::optional<TournamentView> view_;
+  tl::expected<void, std::string> begun_;
+};
+
+TEST_F(TournamentDriverTest, EntersEverybodyAsTheFileSays) {
+  begin();
+  ASSERT_TRUE(begun_);
+  ASSERT_THAT(host_.entered, SizeIs(3));
+  EXPECT_EQ(host_.entered[0].name, "light");
+  EXPECT_EQ(host_.entered[0].house_bot, "greedy");
+  EXPECT_THAT(host_.entered[0].house_options, ElementsAre("--effort", "5"));
+  EXPECT_EQ(host_.entered[1].command, "./mine");
+  EXPECT_EQ(host_.entered[2].name, "Anna");
+  EXPECT_FALSE(host_.entered[2].house_bot || host_.entered[2].command);
+  EXPECT_EQ(host_.stored->status, TournamentStatus::running);
+}
+
+TEST_F(TournamentDriverTest, OrdersMatchesOnTheTermsOfTheFile) {
+  begin();
+  ASSERT_THAT(host_.orders, SizeIs(1));
+  const MatchOrder& order = host_.orders.front();
+  EXPECT_THAT(order.agents, ElementsAre("mine", "Anna"));
+  EXPECT_EQ(order.games, 2u);
+  EXPECT_TRUE(order.mirrored);
+  EXPECT_EQ(order.terms.rules, rules::RuleSet::nine_ball);
+  EXPECT_EQ(order.terms.noise, "low");
+  EXPECT_EQ(order.terms.clock, 30s);
+}
+
+TEST_F(TournamentDriverTest, PlaysTheWholeScheduleAndThenSaysSo) {
+  begin();
+  for (int match = 0; match < 3; ++match) {
+    EXPECT_FALSE(view_->over);
+    host_.play_next(0);
+  }
+  EXPECT_TRUE(view_->over);
+  EXPECT_THAT(host_.orders, SizeIs(3));
+  EXPECT_THAT(view_->games, SizeIs(6));
+  EXPECT_EQ(host_.stored->status, TournamentStatus::finished);
+  ASSERT_THAT(host_.announced, SizeIs(3));
+  EXPECT_EQ(host_.announced[0].games, 4u);
+}
+
+TEST_F(TournamentDriverTest, ResultsBelongToThoseWhoPlayed) {
+  begin();
+  host_.play_next(1);  // mine - Anna: Anna wins both
+  ASSERT_THAT(view_->games, SizeIs(2));
+  EXPECT_EQ(view_->games[0].breaker, tournament::EntryId{1});
+  EXPECT_EQ(view_->games[0].winner, tournament::EntryId{2});
+  EXPECT_EQ(view_->games[1].breaker, tournament::EntryId{2});
+  EXPECT_EQ(view_->games[1].winner, tournament::EntryId{2});
+}
+
+TEST_F(TournamentDriverTest, BegunAgainItGoesOnWithWhatIsNotOver) {
+  begin();
+  host_.play_next(0);
+  ASSERT_THAT(host_.orders, SizeIs(2));
+  const MatchOrder interrupted = host_.orders[1];
+  host_.unfinished.push_back({"cup", interrupted.pairing, MatchId{9}, {{.winner = 1}}});
+  host_.orders.clear();
+  host_.played = 0;
+
+  begin(three_entries, 999);
+  ASSERT_TRUE(begun_);
+  ASSERT_THAT(host_.orders, SizeIs(1));
+  EXPECT_EQ(host_.orders[0].pairing, interrupted.pairing);
+  EXPECT_EQ(host_.orders[0].seed, interrupted.seed) << "the seed of the first run stays";
+  EXPECT_THAT(view_->games, SizeIs(3));
+  EXPECT_EQ(progress_of(*view_, now_).finished, 3u);
+  host_.play_next(0);
+  host_.play_next(0);
+  EXPECT_TRUE(view_->over);
+  EXPECT_THAT(view_->games, SizeIs(6));
+}
+
+TEST_F(TournamentDriverTest, BegunAgainWhenEverythingIsOverItOnlyShowsTheTable) {
+  begin();
+  for (int match = 0; match < 3; ++match) {
+    host_.play_next(0);
+  }
+  host_.orders.clear();
+  begin();
+  ASSERT_TRUE(begun_);
+  EXPECT_THAT(host_.orders, IsEmpty());
+  EXPECT_TRUE(view_->over);
+  EXPECT_THAT(view_->games, SizeIs(6));
+}
+
+TEST_F(TournamentDriverTest, AnotherTournamentOfTheSameNameIsRefused) {
+  begin();
+  std::string other = three_entries;
+  other.replace(other.find("= 30"), 4, "= 60");
+  begin(other);
+  ASSERT_FALSE(begun_);
+  EXPECT_THAT(begun_.error(), HasSubstr("a tournament \"cup\" with other settings"));
+}
+
+TEST_F(TournamentDriverTest, TheSeedOfTheFileDecidesTheRacks) {
+  begin("seed = 5\n" + three_entries, 1);
+  const std::uint64_t first = host_.orders[0].seed;
+  FakeHost other_host;
+  TournamentDriver other(file("seed = 5\n" + three_entries), other_host, [this] { return now_; });
+  ASSERT_TRUE(other.begin(2));
+  EXPECT_EQ(other_host.orders[0].seed, first);
+  EXPECT_EQ(host_.stored->settings, "seed = 5\n" + three_entries);
+}
+
+TEST_F(TournamentDriverTest, AGameToldTwiceCountsOnce) {
+  begin();
+  host_.play_one_game(0, 0, 0);
+  host_.play_one_game(0, 0, 0);
+  EXPECT_THAT(view_->games, SizeIs(1));
+  EXPECT_THAT(view_->timed, SizeIs(1));
+}
+
+TEST_F(TournamentDriverTest, TheViewTellsWhatRunsAndWhatWaits) {
+  begin();
+  now_ += 10s;
+  host_.play_one_game(0, 0, 0);
+  now_ += 5s;
+  const tournament::Progress progress = progress_of(*view_, now_);
+  EXPECT_EQ(progress.finished, 1u);
+  EXPECT_EQ(progress.running, 1u);
+  EXPECT_EQ(progress.total, 6u);
+  ASSERT_TRUE(progress.remaining);
+  // 10 s a game, one at a time: 5 s of the running one and four more.
+  EXPECT_NEAR(progress.remaining->count(), 45, 1e-9);
+}
+
+}  // namespace
+}  // namespace poolhall::net
