@@ -74,6 +74,12 @@ Expected<void> check_room(const CueShot<double>& shot, const BallSet<double>& ba
                                   ", expected a higher cue or another aim"});
 }
 
+bool has_room(const CueShot<double>& shot, const Vec2<double>& ball, const BallSet<double>& balls,
+              const Table& table, const Materials& materials) {
+  const CueStick stick = cue_stick(shot, ball, materials.ball_radius);
+  return !obstacle_of(stick, balls, table, materials);
+}
+
 Expected<void> check_numbers(const ShotParameters<double>& given, const Materials& materials) {
   const double lowest = std::numeric_limits<double>::lowest();
   const double highest = std::numeric_limits<double>::max();
@@ -171,12 +177,15 @@ NearestShot nearest_possible_shot(const CueShot<double>& shot, const BallSet<dou
   if (check_shot(shot, balls, table, materials))
     return {shot, false};
   const ShotParameters<double> base = in_range(shot.given, materials);
-  CueShot<double> moved = shot;
+  const Ball<double>* ball = cue_ball_of(balls);
+  CueShot<double> moved = cue_shot(within_miscue_limit(base, materials));
+  if (ball == nullptr)
+    return {moved, true};
   for (int step = 0; step <= elevation_steps; ++step) {
     ShotParameters<double> raised = base;
     raised.theta = std::min(90.0, base.theta + elevation_step * step);
     moved = cue_shot(within_miscue_limit(raised, materials));
-    if (check_room(moved, balls, table, materials))
+    if (has_room(moved, ball->position, balls, table, materials))
       return {moved, true};
     if (raised.theta == 90.0)
       break;
@@ -185,7 +194,7 @@ NearestShot nearest_possible_shot(const CueShot<double>& shot, const BallSet<dou
   const ShotParameters<double> upright = moved.given;
   for (int tenths = 9; tenths >= 0; --tenths) {
     moved = cue_shot(line_scaled(upright, tenths / 10.0, materials.ball_radius));
-    if (check_room(moved, balls, table, materials))
+    if (has_room(moved, ball->position, balls, table, materials))
       break;
   }
   return {moved, true};

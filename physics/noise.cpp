@@ -110,7 +110,9 @@ double normal_quantile(double p) {
 }
 
 double uniform_deviate(std::uint64_t bits) {
-  return (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+  // The half is rounded away in the upper half of the interval, and up to 1 in its last place.
+  const double deviate = (static_cast<double>(bits >> 11) + 0.5) * 0x1p-53;
+  return deviate < 1 ? deviate : 1 - 0x1p-53;
 }
 
 }  // namespace poolhall::physics

@@ -40,7 +40,8 @@ using ShotDeviates = std::array<double, 5>;
 // (PPND16), with the project's own logarithm; 0 < p < 1.
 [[nodiscard]] double normal_quantile(double p);
 
-// The uniform deviate in (0, 1) of 64 random bits: (bits >> 11 + 0.5) * 2^-53.
+// The uniform deviate in (0, 1) of 64 random bits: ((bits >> 11) + 0.5) * 2^-53,
+// and 1 - 2^-53 where that rounds to 1.
 [[nodiscard]] double uniform_deviate(std::uint64_t bits);
 
 }  // namespace poolhall::physics

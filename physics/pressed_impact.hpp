@@ -41,7 +41,7 @@ class PressedImpact {
   [[nodiscard]] const PressedState<Real>& state() const { return y_; }
 
  private:
-  static constexpr int step_limit = 20000;
+  static constexpr int step_limit = 4000;
   static constexpr int attempt_limit = 500;
   static constexpr int settling_iterations = 500;
   static constexpr bool is_wide =
@@ -91,6 +91,14 @@ class PressedImpact {
       if (!advance(released)) {
         return false;
       }
+    }
+    if (!is_wedged()) {
+      // The rest, a few last places, in one straight step.
+      const PressedState<Real> slope = rate_of(y_);
+      y_ = advanced(y_, Real(left_to(released, y_) / -slope[pressed::work]), slope);
+    }
+    if (y_[pressed::vx] > Real(0)) {
+      y_[pressed::vx] = Real(0);
     }
     return true;
   }
