@@ -1,6 +1,8 @@
 #include "protocol/events_json.hpp"
 
+#include <string>
 #include "protocol/events_text.hpp"
+
 #include "protocol/json_parts.hpp"
 
 namespace poolhall::protocol {
@@ -32,6 +34,10 @@ void read_participants(const JsonNode& node, physics::Event<double>& event) {
     event.after[i].id = ids[i];
     if (!states.empty()) {
       event.after[i] = read_ball_after(states[i]);
+      if (event.after[i].id != ids[i]) {
+        states[i].at("id").refuse_expecting(std::to_string(physics::number(ids[i])) +
+                                            " as in balls");
+      }
     }
     if (event.after[i].state == physics::MotionState::pocketed) {
       event.after[i].pocket = event.pocket;
