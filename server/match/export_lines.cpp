@@ -221,8 +221,10 @@ Expected<void> export_lines(storage::Reader& reader, const Line& line) {
       return tl::unexpected(match.error());
     if (!*match)
       continue;
-    if (auto done = export_match(reader, **match, line); !done)
-      return done;
+    Expected<void> done;
+    const auto read = reader.consistently([&] { done = export_match(reader, **match, line); });
+    if (!read || !done)
+      return read ? done : read;
   }
   return {};
 }

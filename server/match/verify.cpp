@@ -26,10 +26,7 @@ std::optional<Difference> check_turns(storage::Reader& reader, GameCheck& check,
   return found;
 }
 
-}  // namespace
-
-void verify_game(storage::Reader& reader, protocol::GameId id, VerifyReport& report) {
-  ++report.games;
+void verify_in_snapshot(storage::Reader& reader, protocol::GameId id, VerifyReport& report) {
   const auto game = reader.game(id);
   if (!game || !*game) {
     report.differences.push_back(game ? Difference{id, std::nullopt, "id", "there is no such game"}
@@ -48,6 +45,16 @@ void verify_game(storage::Reader& reader, protocol::GameId id, VerifyReport& rep
   report.other_version += check.other_version();
   if (found)
     report.differences.push_back(std::move(*found));
+}
+
+}  // namespace
+
+void verify_game(storage::Reader& reader, protocol::GameId id, VerifyReport& report) {
+  ++report.games;
+  // A game may go on while it is verified: its row and its turns must be of one moment.
+  const auto read = reader.consistently([&] { verify_in_snapshot(reader, id, report); });
+  if (!read)
+    report.differences.push_back({id, std::nullopt, "row", read.error().reason});
 }
 
 storage::Expected<VerifyReport> verify(storage::Reader& reader, const VerifyOptions& options) {

@@ -66,6 +66,9 @@ class Reader {
   [[nodiscard]] virtual Expected<void> each_turn(
       GameId game, const std::function<bool(const TurnRecord&)>& visit) = 0;
 
+  // All reads within `read` see the database in one state, whatever is committed meanwhile.
+  [[nodiscard]] virtual Expected<void> consistently(const std::function<void()>& read) = 0;
+
   // The database's own check of its structure: one line a finding, none when it is sound.
   [[nodiscard]] virtual Expected<std::vector<std::string>> check_structure() = 0;
 };

@@ -156,7 +156,12 @@ Expected<void> SqliteConnection::prepare(Access access) {
                                                        " is older than " + std::to_string(known) +
                                                        ": start the server on it once"});
   }
-  database_.exec("PRAGMA journal_mode = WAL");
+  const std::string journal = database_.execAndGet("PRAGMA journal_mode = WAL").getString();
+  if (journal != "wal") {
+    return tl::unexpected(StorageError{
+        StorageFault::cannot_open,
+        file_ + ": this file system has no write-ahead log (journal mode " + journal + ")"});
+  }
   database_.exec("PRAGMA synchronous = FULL");
   database_.exec("PRAGMA foreign_keys = ON");
   migrate(*version);

@@ -41,6 +41,7 @@ class SqliteDatabase final : public Database {
   Expected<std::optional<TurnRecord>> turn(GameId game, std::uint32_t number) override;
   Expected<void> each_turn(GameId game,
                            const std::function<bool(const TurnRecord&)>& visit) override;
+  Expected<void> consistently(const std::function<void()>& read) override;
   Expected<std::vector<std::string>> check_structure() override;
 
   Expected<void> begin() override;
@@ -244,6 +245,19 @@ Expected<void> SqliteDatabase::each_turn(GameId game,
       if (!visit(Columns(*use).turn()))
         return;
     }
+  });
+}
+
+Expected<void> SqliteDatabase::consistently(const std::function<void()>& read) {
+  return connection_->guarded([&] {
+    // Within a transaction reads are consistent already.
+    if (sqlite3_get_autocommit(connection_->raw().getHandle()) == 0) {
+      read();
+      return;
+    }
+    connection_->prepared("BEGIN DEFERRED")->exec();
+    read();
+    connection_->prepared("COMMIT")->exec();
   });
 }
 

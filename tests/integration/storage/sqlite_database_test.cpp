@@ -94,6 +94,23 @@ TEST(SqliteDatabase, reads_beside_the_owner_what_is_committed) {
   EXPECT_EQ((*reader)->turn(GameId{1}, 1).value(), sample_turn(1, 1));
 }
 
+TEST(SqliteDatabase, reads_consistently_while_the_owner_writes) {
+  TemporaryDirectory directory;
+  auto owner = open_sqlite(directory / "test.db").value();
+  add_samples(*owner);
+  auto reader = open_sqlite_reader(directory / "test.db").value();
+  std::vector<bool> seen;
+  ASSERT_TRUE(reader->consistently([&] {
+    seen.push_back(reader->turn(GameId{1}, 1).value().has_value());
+    ASSERT_TRUE(owner->begin());
+    ASSERT_TRUE(owner->append_turn(sample_turn(1, 1)));
+    ASSERT_TRUE(owner->commit());
+    seen.push_back(reader->turn(GameId{1}, 1).value().has_value());
+  }));
+  seen.push_back(reader->turn(GameId{1}, 1).value().has_value());
+  EXPECT_THAT(seen, testing::ElementsAre(false, false, true));
+}
+
 TEST(SqliteDatabase, makes_no_file_for_a_reader) {
   TemporaryDirectory directory;
   EXPECT_FALSE(open_sqlite_reader(directory / "test.db"));

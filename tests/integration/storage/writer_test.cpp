@@ -221,6 +221,9 @@ class FullDisk final : public Database {
                            const std::function<bool(const TurnRecord&)>& visit) override {
     return database_->each_turn(game, visit);
   }
+  Expected<void> consistently(const std::function<void()>& read) override {
+    return database_->consistently(read);
+  }
   Expected<std::vector<std::string>> check_structure() override {
     return database_->check_structure();
   }
