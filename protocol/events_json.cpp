@@ -1,6 +1,8 @@
 #include "protocol/events_json.hpp"
 
+#include <algorithm>
 #include <string>
+
 #include "protocol/events_text.hpp"
 
 #include "protocol/json_parts.hpp"
@@ -86,6 +88,18 @@ std::string encode_events(const physics::EventLog<double>& events, EventDetail d
   out.reserve(events.size() * (detail == EventDetail::full ? 320 : 80) + 2);
   write_events(out, events, detail);
   return std::move(out).text();
+}
+
+std::string summary_of(std::string_view full) {
+  // Each event ends with its `after`, whose objects have no arrays in them.
+  constexpr std::string_view opening = ",\"after\":[";
+  std::string summary;
+  for (std::size_t at = 0; at < full.size();) {
+    const std::size_t start = std::min(full.find(opening, at), full.size());
+    summary += full.substr(at, start - at);
+    at = start == full.size() ? start : full.find(']', start) + 1;
+  }
+  return summary;
 }
 
 Expected<physics::EventLog<double>> decode_events(std::string_view text) {

@@ -21,6 +21,9 @@ enum class EventDetail : std::uint8_t {
 [[nodiscard]] std::string encode_events(const physics::EventLog<double>& events,
                                         EventDetail detail);
 
+// The summary of a full log that encode_events wrote, without reading its numbers.
+[[nodiscard]] std::string summary_of(std::string_view full);
+
 // A summary comes back with the balls' ids and nothing else in `after`.
 [[nodiscard]] Expected<physics::EventLog<double>> decode_events(std::string_view text);
 

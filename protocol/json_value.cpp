@@ -11,6 +11,9 @@ namespace {
 // What was read may hold a token, so only as much of it is repeated as shows the mistake.
 constexpr std::size_t longest_repeated_token = 16;
 
+// No object of the protocol or of a file comes near it; it bounds the search for duplicate keys.
+constexpr std::size_t most_members = 1024;
+
 // One open array or object while parsing.
 struct Open {
   JsonValue value;
@@ -109,6 +112,9 @@ bool TreeBuilder::key(string_t& name) {
   const std::string object = here();
   if (++keys_ > bounds_.keys) {
     return refuse(object, "more than " + std::to_string(bounds_.keys) + " keys in all");
+  }
+  if (std::get<JsonObject>(top.value.data).size() == most_members) {
+    return refuse(object, "more than " + std::to_string(most_members) + " keys in one object");
   }
   if (top.value.member(name) != nullptr) {
     return refuse(object + pointer_token(name), "the key stands twice in one object");

@@ -4,7 +4,7 @@
     validate_messages.py SCHEMA_FOLDER < session.txt
 
 A line "> {...}" went from an agent to the server, "< {...}" came back; lines that begin with "#"
-and empty lines are passed over. A reply is held against the schema of the request with its id; an
+and empty lines are passed over, and so is "! ...", a line of an agent that is wrong on purpose. A reply is held against the schema of the request with its id; an
 error may answer anything. Prints how many messages were valid; exit code 1 and one line each for
 those that were not.
 """
@@ -62,7 +62,7 @@ def main():
     methods, valid, wrong = {}, 0, 0
     for number, line in enumerate(sys.stdin, 1):
         line = line.rstrip("\n")
-        if not line or line.startswith("#"):
+        if not line or line[0] in "#!":
             continue
         found = check(schemas, line[0], json.loads(line[2:]), methods)
         for error in found[:3]:

@@ -45,6 +45,12 @@ TEST(ParseJson, TakesTheMostKeysAllowedAndRefusesOneMore) {
   EXPECT_EQ(refused("[" + object_of(200) + "," + object_of(57) + "]").field, "/1");
 }
 
+TEST(ParseJson, BoundsTheKeysOfOneObjectEvenInLargeDocuments) {
+  constexpr JsonBounds large{16, 1'000'000};
+  EXPECT_TRUE(parse_json(object_of(1024), large));
+  EXPECT_FALSE(parse_json(object_of(1025), large));
+}
+
 TEST(ParseJson, RefusesAKeyThatStandsTwiceAndPointsAtIt) {
   EXPECT_EQ(refused(R"({"a":{"x":1,"b/c~":2,"b/c~":3}})").field, "/a/b~1c~0");
   EXPECT_TRUE(parse_json(R"({"a":{"x":1},"b":{"x":1}})", bounds));

@@ -136,6 +136,15 @@ TEST(EventsJson, LeaveTheBallsStatesOutOfASummary) {
   EXPECT_EQ((*again)[1].after[0].id, events[1].after[0].id);
 }
 
+TEST(EventsJson, AreSummedUpFromTheirTextAsFromTheirValues) {
+  for (const auto rules : {rules::RuleSet::eight_ball, rules::RuleSet::nine_ball}) {
+    const auto events = played_break(rules).events;
+    EXPECT_EQ(summary_of(encode_events(events, EventDetail::full)),
+              encode_events(events, EventDetail::summary));
+  }
+  EXPECT_EQ(summary_of("[]"), "[]");
+}
+
 TEST(EventsJson, KeepHopsThatStandInOneEntry) {
   physics::Event<double> event;
   event.t = 1;
