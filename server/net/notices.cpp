@@ -18,12 +18,8 @@ std::int64_t whole_ms(storage::Micros time) {
 }
 
 RawJson events_for(const storage::ShotPart& shot, protocol::EventDetail detail) {
-  if (detail == protocol::EventDetail::summary) {
-    if (const auto events = protocol::decode_events(shot.events)) {
-      return RawJson{protocol::encode_events(*events, detail)};
-    }
-  }
-  return RawJson{shot.events};
+  return RawJson{detail == protocol::EventDetail::summary ? protocol::summary_of(shot.events)
+                                                          : shot.events};
 }
 
 protocol::Legal legal_in(const rules::GameState& state) {
