@@ -139,7 +139,8 @@ class Follower {
       return misfit(i, field, "the state of " + ball_name(after.id) + " is not a ball's");
     }
     const bool down = event.type == EventType::pocketed;
-    if ((after.state == MotionState::pocketed) != down && event.type != EventType::off_table) {
+    if (has_place(after) && (after.state == MotionState::pocketed) != down &&
+        event.type != EventType::off_table) {
       return misfit(i, field + "/state",
                     down ? "a ball that is pocketed has the state pocketed"
                          : "only a pocketed event pockets a ball");

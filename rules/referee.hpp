@@ -106,7 +106,7 @@ struct Ruling {
                                          const physics::Materials& materials);
 
 // Whether a game can be played with these settings on this table: numbers in range, a rack that
-// fits. `new_game` wants them so.
+// fits. `new_game` wants them so. Fields are relative to the settings, or "/table".
 [[nodiscard]] Expected<void> check_settings(const GameSettings& settings,
                                             const physics::Table& table,
                                             const physics::Materials& materials);

@@ -138,6 +138,22 @@ Expected<void> check_turn(const GameState& state) {
   return {};
 }
 
+Expected<void> check_setting_numbers(const GameSettings& settings) {
+  if (settings.rack_seed >= seed_limit) {
+    return impossible("/rack_seed",
+                      "got " + std::to_string(settings.rack_seed) + ", expected below 2^53");
+  }
+  if (!(settings.rack_gap >= 0 && settings.rack_gap <= largest_gap)) {
+    return impossible("/rack_gap",
+                      "got " + std::to_string(settings.rack_gap) + ", expected 0 to 0.005 m");
+  }
+  if (!(settings.rack_jitter >= 0 && settings.rack_jitter <= largest_jitter)) {
+    return impossible("/rack_jitter",
+                      "got " + std::to_string(settings.rack_jitter) + ", expected 0 to 0.002 m");
+  }
+  return {};
+}
+
 bool is_seat(Seat seat) {
   return seat == Seat::first || seat == Seat::second;
 }
@@ -145,6 +161,9 @@ bool is_seat(Seat seat) {
 Expected<void> check_enumerators(const GameState& state) {
   if (name(state.settings.rules).empty()) {
     return impossible("/rules", "not a rule set");
+  }
+  if (auto numbers = check_setting_numbers(state.settings); !numbers) {
+    return impossible("/settings" + numbers.error().field, numbers.error().reason);
   }
   if (!is_seat(state.to_move) || !is_seat(state.breaker)) {
     return impossible(is_seat(state.breaker) ? "/to_move" : "/breaker", "not a seat");
@@ -160,22 +179,17 @@ Expected<void> check_enumerators(const GameState& state) {
 
 Expected<void> check_settings(const GameSettings& settings, const physics::Table& table,
                               const physics::Materials& materials) {
-  if (name(settings.rules).empty()) {
-    return impossible("/rules", "not a rule set");
-  }
-  if (settings.rack_seed >= seed_limit) {
-    return impossible("/rack_seed", std::to_string(settings.rack_seed) + ", expected below 2^53");
-  }
-  if (!(settings.rack_gap >= 0 && settings.rack_gap <= largest_gap)) {
-    return impossible("/rack_gap", "expected 0 to 5 mm");
-  }
-  if (!(settings.rack_jitter >= 0 && settings.rack_jitter <= largest_jitter)) {
-    return impossible("/rack_jitter", "expected 0 to 2 mm");
+  if (auto numbers = check_setting_numbers(settings); !numbers) {
+    return numbers;
   }
   if (std::holds_alternative<physics::NoPockets>(table.pockets)) {
     return impossible("/table", "a game needs a table with pockets");
   }
-  return check_places(new_game(settings, table, materials), table, materials);
+  auto places = check_places(new_game(settings, table, materials), table, materials);
+  if (!places && places.error().field.starts_with("/balls")) {
+    return impossible("/table", "the rack does not fit: " + places.error().reason);
+  }
+  return places;
 }
 
 Expected<void> check_state(const GameState& state, const physics::Table& table,

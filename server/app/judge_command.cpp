@@ -1,0 +1,65 @@
+// `poolhall judge`: a state, a call and a shot to the ruling and the next state.
+#include <CLI/CLI.hpp>
+
+#include <fstream>
+#include <iostream>
+#include <iterator>
+#include <memory>
+#include <string>
+
+#include "protocol/judge_document.hpp"
+#include "server/app/commands.hpp"
+
+namespace poolhall::app {
+namespace {
+
+constexpr int done = 0;
+constexpr int not_done = 1;
+constexpr int wrong_input = 2;
+
+int judge_one(const std::string& source, const std::string& text) {
+  const auto answer = protocol::judge_document(text);
+  if (!answer) {
+    const protocol::Error& error = answer.error();
+    std::cerr << source << ": " << error.field << (error.field.empty() ? "" : ": ") << error.reason
+              << '\n';
+    return wrong_input;
+  }
+  std::cout << *answer << '\n';
+  return done;
+}
+
+int run_judge(const std::string& source) {
+  std::ifstream file;
+  if (source != "-") {
+    file.open(source, std::ios::binary);
+    if (!file) {
+      std::cerr << source << ": cannot be read, expected a JSON file or -\n";
+      return wrong_input;
+    }
+  }
+  std::istream& in = source == "-" ? std::cin : file;
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  const int code = judge_one(source, text);
+  std::cout.flush();
+  if (!std::cout) {
+    std::cerr << "judge: cannot write the ruling\n";
+    return not_done;
+  }
+  return code;
+}
+
+}  // namespace
+
+void add_judge_command(CLI::App& app, int& exit_code) {
+  const auto source = std::make_shared<std::string>();
+  CLI::App* command = app.add_subcommand(
+      "judge", "Print the referee's ruling on a shot, and the next state, as JSON");
+  command
+      ->add_option("FILE", *source,
+                   "JSON: a state, a call, and events or a shot; - for the standard input")
+      ->required();
+  command->callback([source, &exit_code] { exit_code = run_judge(*source); });
+}
+
+}  // namespace poolhall::app
