@@ -4,7 +4,8 @@
     validate_messages.py SCHEMA_FOLDER < session.txt
 
 A line "> {...}" went from an agent to the server, "< {...}" came back; lines that begin with "#"
-and empty lines are passed over, and so is "! ...", a line of an agent that is wrong on purpose. A reply is held against the schema of the request with its id; an
+and empty lines are passed over, and so is "! ...", a line of an agent that is wrong on purpose. "s {...}"
+is a scene for `poolhall simulate`, "r {...}" its result. A reply is held against the schema of the request with its id; an
 error may answer anything. Prints how many messages were valid; exit code 1 and one line each for
 those that were not.
 """
@@ -45,6 +46,8 @@ class Schemas:
 
 
 def check(schemas, direction, message, methods):
+    if direction in "sr":
+        return schemas.errors(message, {"s": "scene", "r": "simulation"}[direction] + ".schema.json")
     if direction == ">":
         methods[json.dumps(message.get("id"))] = message.get("method")
         return schemas.errors(message, "request.schema.json", message.get("method"))
