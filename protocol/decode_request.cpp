@@ -304,8 +304,10 @@ std::optional<GameId> game_of(const JsonValue& document) {
 
 Expected<Request> read_request(const JsonValue& document, Method method, const Limits& limits) {
   Reading reading(document);
+  const bool needs_params = method != Method::tournament_list && method != Method::ping;
+  const bool has_params = document.member("params") != nullptr;
   const JsonNode params =
-      method == Method::tournament_list ? JsonNode(reading) : reading.root().at("params");
+      needs_params || has_params ? reading.root().at("params") : JsonNode(reading);
   Request request = read_params(method, params, limits);
   if (!reading.ok()) {
     Error error = reading.error();

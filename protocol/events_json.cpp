@@ -4,7 +4,6 @@
 #include <string>
 
 #include "protocol/events_text.hpp"
-
 #include "protocol/json_parts.hpp"
 
 namespace poolhall::protocol {

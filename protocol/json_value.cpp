@@ -219,8 +219,10 @@ std::string canonical_text(const JsonValue& value) {
 }
 
 std::string pointer_token(std::string_view key) {
+  // A key may be as long as the line; an error need not repeat it.
+  constexpr std::size_t longest_key = 64;
   std::string token = "/";
-  for (const char c : key) {
+  for (const char c : key.substr(0, longest_key)) {
     if (c == '~') {
       token += "~0";
     } else if (c == '/') {

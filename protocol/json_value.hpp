@@ -44,7 +44,8 @@ struct JsonValue {
 // One text for equal values: no spaces, numbers and strings as JsonWriter writes them.
 [[nodiscard]] std::string canonical_text(const JsonValue& value);
 
-// `key` as one more reference token of a JSON Pointer (RFC 6901), with its "/".
+// `key` as one more reference token of a JSON Pointer (RFC 6901), with its "/"; a key of more than
+// 64 bytes is cut short.
 [[nodiscard]] std::string pointer_token(std::string_view key);
 
 }  // namespace poolhall::protocol

@@ -107,6 +107,18 @@ TEST(DecodeRequest, IgnoresMembersThatItDoesNotKnow) {
       decode_request(R"({"jsonrpc":"2.0","id":1,"method":"tournament.list","extra":[]})", limits));
 }
 
+TEST(DecodeRequest, AsksForNoParamsWhereNoneAreNeeded) {
+  EXPECT_TRUE(decode_request(R"({"jsonrpc":"2.0","id":1,"method":"ping"})", limits));
+  EXPECT_TRUE(decode_request(R"({"jsonrpc":"2.0","id":1,"method":"tournament.list"})", limits));
+  EXPECT_EQ(refused("ping", "3").field, "/params");
+}
+
+TEST(DecodeRequest, RepeatsNoLongKeyInItsAnswer) {
+  const std::string key(30'000, 'k');
+  const Error error = refused("ack", "{\"" + key + "\":1,\"" + key + "\":2}");
+  EXPECT_EQ(error.field, "/params/" + std::string(64, 'k'));
+}
+
 TEST(DecodeRequest, NamesTheGameThatABadRequestIsAbout) {
   EXPECT_EQ(refused("shot", R"({"game":12})").game, GameId{12});
   EXPECT_FALSE(refused("shot", R"({"game":"x"})").game);
