@@ -2,7 +2,6 @@
 #include <gtest/gtest.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <map>
@@ -13,39 +12,28 @@
 #include "protocol/codec.hpp"
 #include "protocol/scene_json.hpp"
 #include "tests/support/sample_messages.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace poolhall::protocol {
 namespace {
 
 const std::filesystem::path source_dir{POOLHALL_SOURCE_DIR};
 
-// A session as validate_messages.py reads it, in a file of its own that goes with it.
+// A session as validate_messages.py reads it.
 class Session {
  public:
-  Session() {
-    std::string name = (std::filesystem::temp_directory_path() / "poolhall-XXXXXX").string();
-    const int fd = mkstemp(name.data());
-    EXPECT_GE(fd, 0);
-    file_ = fdopen(fd, "w");
-    path_ = name;
-  }
-  Session(const Session&) = delete;
-  Session& operator=(const Session&) = delete;
-  ~Session() {
-    std::fclose(file_);
-    std::filesystem::remove(path_);
-  }
-
-  void agent(const std::string& line) { std::fprintf(file_, "> %s", line.c_str()); }
-  void server(const std::string& line) { std::fprintf(file_, "< %s", line.c_str()); }
+  void agent(const std::string& line) { text_ += "> " + line; }
+  void server(const std::string& line) { text_ += "< " + line; }
 
   struct Verdict {
     int exit_code;
     std::string output;
   };
   [[nodiscard]] Verdict validated() const {
-    std::fflush(file_);
-    return validated(path_);
+    const test_support::TemporaryDirectory folder;
+    const auto file = folder / "session.txt";
+    std::ofstream(file) << text_;
+    return validated(file);
   }
   [[nodiscard]] static Verdict validated(const std::filesystem::path& session) {
     // Debian's own python: it has the jsonschema that the project asks for.
@@ -61,8 +49,7 @@ class Session {
   }
 
  private:
-  std::FILE* file_ = nullptr;
-  std::filesystem::path path_;
+  std::string text_;
 };
 
 TEST(Schemas, HoldForEveryRequest) {
