@@ -86,11 +86,8 @@ Verdict judge_break(const Shot& shot) {
 
 Verdict lost_turn(const GameState& state, const Venue& venue) {
   const bool eight_down = find_ball(state, the_eight)->where != Whereabouts::on_table;
-  return {{},
-          {},
-          {},
-          after_lost_turn(eight_down ? spotted(state, the_eight, venue.table, venue.materials)
-                                     : state)};
+  return after_lost_turn(
+      {{}, {}, {}, eight_down ? spotted(state, the_eight, venue.table, venue.materials) : state});
 }
 
 GameState decide(const GameState& state, Decision decision, const Venue& venue) {

@@ -192,10 +192,7 @@ Verdict lost_turn(const GameState& state, const Venue& /*venue*/) {
   Verdict verdict{{}, {}, {}, state};
   verdict.next.memory = counted(memory_of(state), state.to_move, 1);
   verdict = fouled(std::move(verdict), state.to_move);
-  if (!verdict.next.result) {
-    verdict.next = after_lost_turn(verdict.next);
-  }
-  return verdict;
+  return verdict.next.result ? verdict : after_lost_turn(std::move(verdict));
 }
 
 GameState decide(const GameState& state, Decision decision, const Venue& /*venue*/) {

@@ -48,14 +48,17 @@ GameState racked(GameState state, Seat breaker, const Venue& venue) {
   return state;
 }
 
-GameState after_lost_turn(const GameState& state) {
-  const Seat opponent = other(state.to_move);
-  if (applies(clauses::lost_break_passes, state.kind == TurnKind::break_shot)) {
-    GameState next = turn_for(state, opponent, TurnKind::break_shot);
-    next.breaker = opponent;
-    return next;
+Verdict after_lost_turn(Verdict verdict) {
+  const Seat opponent = other(verdict.next.to_move);
+  if (applies(clauses::lost_break_passes, verdict.next.kind == TurnKind::break_shot)) {
+    verdict.next = turn_for(std::move(verdict.next), opponent, TurnKind::break_shot);
+    verdict.next.breaker = opponent;
+    verdict.notes.push_back(finding(clauses::lost_break_passes));
+    return verdict;
   }
-  return turn_for(state, opponent, TurnKind::ball_in_hand);
+  verdict.next = turn_for(std::move(verdict.next), opponent, TurnKind::ball_in_hand);
+  verdict.notes.push_back(finding(clauses::ball_in_hand_after_foul));
+  return verdict;
 }
 
 std::optional<GameState> decided_commonly(const GameState& state, Decision decision,

@@ -14,8 +14,8 @@ namespace poolhall::rules {
 // The first or the next rack of a game: balls racked, cue ball in hand, nothing remembered.
 [[nodiscard]] GameState racked(GameState state, Seat breaker, const Venue& venue);
 
-// The opponent's turn after a turn lost without a shot.
-[[nodiscard]] GameState after_lost_turn(const GameState& state);
+// The opponent's turn after the turn of `verdict.next` was lost without a shot.
+[[nodiscard]] Verdict after_lost_turn(Verdict verdict);
 
 // Decisions that every game knows; nothing for the others.
 [[nodiscard]] std::optional<GameState> decided_commonly(const GameState& state, Decision decision,
