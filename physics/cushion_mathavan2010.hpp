@@ -5,8 +5,10 @@
 // Parameters: restitution 0..1, friction >= 0, the cloth's mu_slide, nose height in (0, 2 R).
 //
 // Departures from the source: slips are vectors, not angles; a contact whose slip ends sticks where
-// its cone of friction allows it; the cloth never pulls; the steps adapt to 1e-13 or better. With
-// both frictions above about 0.75 the ball can wedge between nose and cloth: it stays there.
+// its cone of friction allows it; the cloth never pulls; the steps adapt to about 1e-13, and to
+// about 1e-12 where a stuck contact breaks loose. With both frictions above about 0.75 the ball can
+// wedge between nose and cloth: it stays there. With frictions far above 1 a rigid ball may have no
+// consistent motion; where the bound on steps is met Han's impact takes its place.
 #pragma once
 
 #include "physics/cushion_contact.hpp"
