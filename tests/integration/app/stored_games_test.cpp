@@ -1,0 +1,126 @@
+// `poolhall verify`, `replay` and `export` as programs, on a database with a game in it.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/wait.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <sstream>
+
+#include "../match/played_game.hpp"
+#include "protocol/json_value.hpp"
+#include "server/storage/sqlite_database.hpp"
+#include "tests/support/raw_sqlite.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace poolhall {
+namespace {
+
+using test_support::RawSqlite;
+using testing::HasSubstr;
+using testing::Not;
+
+struct Ran {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+class StoredGames : public testing::Test {
+ protected:
+  StoredGames() {
+    auto database = storage::open_sqlite(file_).value();
+    match::add_players(*database);
+    match::PlayedGame(*database, match::order_of(1), 5).play(6);
+  }
+
+  [[nodiscard]] Ran run(const std::string& arguments) const {
+    const std::string command =
+        std::string(POOLHALL_PROGRAM) + " " + arguments + " > " + at("out") + " 2> " + at("err");
+    const int status = std::system(command.c_str());
+    return {WEXITSTATUS(status), read("out"), read("err")};
+  }
+
+  [[nodiscard]] std::string at(const std::string& name) const {
+    return (directory_ / name).string();
+  }
+  [[nodiscard]] std::string read(const std::string& name) const {
+    std::ifstream in(at(name), std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+
+  test_support::TemporaryDirectory directory_;
+  std::filesystem::path file_ = directory_ / "games.db";
+};
+
+TEST_F(StoredGames, are_verified_with_exit_code_0) {
+  const Ran ran = run("verify --db " + file_.string());
+  EXPECT_EQ(ran.exit_code, 0) << ran.out << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("1 games (0 unfinished), 7 turns"));
+}
+
+TEST_F(StoredGames, differ_with_exit_code_1_and_the_first_difference_named) {
+  RawSqlite(file_).run("UPDATE turns SET executed_v = executed_v + 1e-15 WHERE number = 3");
+  const Ran ran = run("verify --db " + file_.string());
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_THAT(ran.out, HasSubstr("game 1, turn 3: executed_a: stored "));
+}
+
+TEST_F(StoredGames, cannot_be_verified_without_a_file_which_is_exit_code_2) {
+  const Ran ran = run("verify --db " + at("nowhere.db"));
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_THAT(ran.err, HasSubstr("there is no such file"));
+}
+
+TEST_F(StoredGames, are_told_turn_by_turn) {
+  const Ran ran = run("replay 1 --db " + file_.string());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("game 1: Anna against Bob, 8-ball on olympiad"));
+  EXPECT_THAT(ran.out, HasSubstr("turn   1  Anna  shot"));
+  EXPECT_THAT(ran.out, HasSubstr("(conceded)"));
+}
+
+TEST_F(StoredGames, show_one_shot_as_a_picture) {
+  const Ran ran =
+      run("replay 1 --shot 1 --ascii --db " + file_.string() + " --svg " + at("shot.svg"));
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, Not(HasSubstr("turn   2")));
+  EXPECT_THAT(ran.out, HasSubstr("O--"));
+  EXPECT_THAT(read("shot.svg"), HasSubstr("<svg"));
+}
+
+TEST_F(StoredGames, that_do_not_exist_are_said_so) {
+  EXPECT_THAT(run("replay 9 --db " + file_.string()).err, HasSubstr("no game 9"));
+  EXPECT_THAT(run("replay 1 --shot 99 --db " + file_.string()).err, HasSubstr("no turn 99"));
+}
+
+TEST_F(StoredGames, are_exported_as_json_lines_without_keys_while_the_match_goes_on) {
+  const Ran ran = run("export --db " + file_.string());
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  std::istringstream lines(ran.out);
+  std::vector<std::string> kinds;
+  for (std::string line; std::getline(lines, line);) {
+    const auto value = protocol::parse_json(line, {16, 1'000'000});
+    ASSERT_TRUE(value) << line.substr(0, 200);
+    kinds.push_back(value->as<protocol::JsonObject>()->front().first);
+    if (kinds.back() == "game")
+      EXPECT_TRUE(value->member("game")->member("key")->is_null());
+  }
+  EXPECT_THAT(kinds, testing::ElementsAre("export", "agent", "agent", "match", "game", "turn",
+                                          "turn", "turn", "turn", "turn", "turn", "turn"));
+}
+
+TEST_F(StoredGames, are_exported_with_their_keys_once_the_match_is_over) {
+  {
+    auto database = storage::open_sqlite(file_).value();
+    match::must(database->begin());
+    match::must(database->finish_match(protocol::MatchId{1}, storage::UnixMicros{1}));
+    match::must(database->commit());
+  }
+  EXPECT_THAT(run("export --db " + file_.string()).out,
+              HasSubstr("\"key\":\"01080f161d242b323940474e555c636a71787f868d949ba2a9b0b7bec5cc"));
+}
+
+}  // namespace
+}  // namespace poolhall
