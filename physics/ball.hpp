@@ -16,7 +16,9 @@ enum class BallId : std::uint8_t {};
 inline constexpr BallId cue_ball{0};
 inline constexpr std::size_t max_balls = 16;
 
-[[nodiscard]] constexpr unsigned number(BallId id) { return static_cast<unsigned>(id); }
+[[nodiscard]] constexpr unsigned number(BallId id) {
+  return static_cast<unsigned>(id);
+}
 
 enum class MotionState : std::uint8_t { stationary, spinning, rolling, sliding, pocketed };
 

@@ -12,14 +12,6 @@
 
 namespace poolhall::physics {
 
-template <class Real>
-struct PairAfter {
-  Ball<Real> first;
-  Ball<Real> second;
-  Real closing{};       // m/s, along the normal before the impact
-  bool raised = false;  // the separation speed was more than the model's
-};
-
 // The unit vector from the centre of `first` to that of `second`.
 template <class Real>
 [[nodiscard]] Vec2<Real> contact_normal(const Vec2<Real>& first, const Vec2<Real>& second) {
@@ -59,8 +51,7 @@ void rub(Ball<Real>& first, Ball<Real>& second, const Vec2<Real>& n, const Real&
   const Real up = impulse * (s.up / speed);
   // With t = k x n: s^ = along t + up k, and n x t = k, n x k = -t.
   const Vec2<Real> push{-along * n.y, along * n.x};
-  const Real lever = Real(5) / c.diameter;
-  const Vec3<Real> twist{lever * up * n.y, -(lever * up * n.x), lever * along};
+  const Vec3<Real> twist{c.lever * up * n.y, -(c.lever * up * n.x), c.lever * along};
   first.velocity = first.velocity - push;
   second.velocity = second.velocity + push;
   first.angular_velocity = first.angular_velocity - twist;
@@ -72,26 +63,49 @@ void rub(Ball<Real>& first, Ball<Real>& second, const Vec2<Real>& n, const Real&
   return constant == nullptr || constant->coefficient > 0;
 }
 
-// Both balls right after their impact; they leave each other at the separation speed at least,
-// and friction comes from the impulse so raised.
+template <class Real>
+struct Impact {
+  Real closing{};       // m/s, along the normal before the impact
+  bool raised = false;  // the separation speed was more than the model's
+};
+
+// Gives both balls the velocities that they have right after their impact; they leave each other
+// at the separation speed at least, and friction comes from the impulse so raised.
 template <class Policy = Lean, class Real>
-[[nodiscard]] PairAfter<Real> collide(const Ball<Real>& first, const Ball<Real>& second,
-                                      const Coefficients<Real>& c, const BallFriction& friction) {
-  PairAfter<Real> after{first, second, {}, false};
+[[nodiscard]] Impact<Real> strike_together(Ball<Real>& first, Ball<Real>& second,
+                                           const Coefficients<Real>& c,
+                                           const BallFriction& friction) {
   const Vec2<Real> n = contact_normal(first.position, second.position);
   const Real closing = dot(first.velocity - second.velocity, n);
   const Real leaving = c.restitution * closing;
-  after.closing = closing;
-  after.raised = leaving < c.separation_speed;
-  const Real normal = (closing + (after.raised ? c.separation_speed : leaving)) / Real(2);
-  after.first.velocity = first.velocity - normal * n;
-  after.second.velocity = second.velocity + normal * n;
-  if (!Policy::omits(Omission::ball_friction) || has_friction(friction)) {
-    const ContactSlip<Real> slip = contact_slip(first, second, n, c.radius);
-    rub(after.first, after.second, n, normal, slip, c, friction);
+  const bool raised = leaving < c.separation_speed;
+  const Real normal = (closing + (raised ? c.separation_speed : leaving)) / Real(2);
+  const bool rubs = !Policy::omits(Omission::ball_friction) || has_friction(friction);
+  const ContactSlip<Real> slip =
+      rubs ? contact_slip(first, second, n, c.radius) : ContactSlip<Real>{};
+  const Vec2<Real> push = normal * n;
+  first.velocity = first.velocity - push;
+  second.velocity = second.velocity + push;
+  if (rubs) {
+    rub(first, second, n, normal, slip, c, friction);
   }
-  after.first = settled(after.first, c.radius);
-  after.second = settled(after.second, c.radius);
+  settle(first, c.radius);
+  settle(second, c.radius);
+  return {closing, raised};
+}
+
+template <class Real>
+struct PairAfter {
+  Ball<Real> first;
+  Ball<Real> second;
+  Impact<Real> impact;
+};
+
+template <class Real>
+[[nodiscard]] PairAfter<Real> collide(const Ball<Real>& first, const Ball<Real>& second,
+                                      const Coefficients<Real>& c, const BallFriction& friction) {
+  PairAfter<Real> after{first, second, {}};
+  after.impact = strike_together(after.first, after.second, c, friction);
   return after;
 }
 

@@ -46,8 +46,8 @@ template <class Real>
 
 enum class HitKind : std::uint8_t { none, pocket, rail };
 
-// A straight rail puts the ball's centre on a line of the frame; a jaw does not.
-enum class Surface : std::uint8_t { straight, jaw };
+// What was met: a line of the frame (rail or mouth), a jaw's facing or arc, a hole's circle.
+enum class Surface : std::uint8_t { line, facing, arc, hole };
 
 template <class Real>
 struct BoundaryHit {
@@ -56,7 +56,8 @@ struct BoundaryHit {
   RailId rail{};
   PocketId pocket{};
   Vec2<Real> into{};  // unit vector into the cushion
-  Surface surface = Surface::straight;
+  Surface surface = Surface::line;
+  std::uint8_t index = 0;  // of the facing or arc
 };
 
 // Whether `y` lies between the ends of a side mouth, ends included.
@@ -108,7 +109,7 @@ void hit_long_side(const Boundary<Real>& b, const Segment<Real>& s, bool left, c
       const Real t =
           first_closing(way, below ? Real(-s.velocity.y) : s.velocity.y,
                         below ? Real(-s.acceleration.y) : s.acceleration.y, forever<Real>());
-      keep_earlier(best, {t, HitKind::pocket, {}, pocket, {}, Surface::straight});
+      keep_earlier(best, {t, HitKind::pocket, {}, pocket, {}, Surface::line});
     }
     return;
   }
@@ -118,14 +119,13 @@ void hit_long_side(const Boundary<Real>& b, const Segment<Real>& s, bool left, c
   }
   const Real y = position_at(s, t).y;
   if (in_side_mouth(b, y)) {
-    keep_earlier(best, {t, HitKind::pocket, {}, pocket, {}, Surface::straight});
+    keep_earlier(best, {t, HitKind::pocket, {}, pocket, {}, Surface::line});
     return;
   }
   const bool head = y < b.middle;
   const RailId rail = left ? (head ? RailId::head_left : RailId::foot_left)
                            : (head ? RailId::head_right : RailId::foot_right);
-  keep_earlier(best,
-               {t, HitKind::rail, rail, {}, {Real(left ? -1 : 1), Real(0)}, Surface::straight});
+  keep_earlier(best, {t, HitKind::rail, rail, {}, {Real(left ? -1 : 1), Real(0)}, Surface::line});
 }
 
 // A head or foot rail; the corners' mouth lines have been asked before.
@@ -138,7 +138,7 @@ void hit_short_side(const Segment<Real>& s, bool head, const Real& gap, Boundary
                       head ? RailId::head : RailId::foot,
                       {},
                       {Real(0), Real(head ? -1 : 1)},
-                      Surface::straight});
+                      Surface::line});
 }
 
 // The mouth line of the corner at the low or high end of either axis.
@@ -154,7 +154,7 @@ void hit_corner(const Boundary<Real>& b, const Segment<Real>& s, bool left, bool
       Real(inwards_x(s.acceleration.x) + inwards_y(s.acceleration.y)), forever<Real>());
   const PocketId pocket = head ? (left ? PocketId::head_left : PocketId::head_right)
                                : (left ? PocketId::foot_left : PocketId::foot_right);
-  keep_earlier(best, {t, HitKind::pocket, {}, pocket, {}, Surface::straight});
+  keep_earlier(best, {t, HitKind::pocket, {}, pocket, {}, Surface::line});
 }
 
 // The first rail or mouth that the ball meets within T seconds of its segment. Sides that its
@@ -189,9 +189,9 @@ template <class Real>
   return best;
 }
 
-// The ball with its centre exactly on the line where it touches the rail.
+// Puts the ball's centre exactly on the line where it touches the rail.
 template <class Real>
-[[nodiscard]] Ball<Real> on_rail(const Boundary<Real>& b, RailId rail, Ball<Real> ball) {
+void put_on_rail(Ball<Real>& ball, const Boundary<Real>& b, RailId rail) {
   switch (rail) {
     case RailId::head:
       ball.position.y = b.low.y;
@@ -208,7 +208,26 @@ template <class Real>
       ball.position.x = b.high.x;
       break;
   }
-  return ball;
+}
+
+// A rail's hit in the precision of `s`: one step of Newton's, which the search has left nothing but
+// rounding to do. Mouths keep their time: the ball is gone.
+template <class Exact, class Real>
+[[nodiscard]] BoundaryHit<Exact> refined_hit(const Boundary<Exact>& b, const BoundaryHit<Real>& hit,
+                                             const Segment<Exact>& s) {
+  BoundaryHit<Exact> out{
+      Exact(hit.t), hit.kind, hit.rail, hit.pocket, {Exact(hit.into.x), Exact(hit.into.y)},
+      hit.surface,  hit.index};
+  if (hit.kind != HitKind::rail || hit.t == Real(0)) {
+    return out;
+  }
+  const bool is_x = hit.into.x != Real(0);
+  const Exact line = is_x ? (hit.into.x < Real(0) ? b.low.x : b.high.x)
+                          : (hit.into.y < Real(0) ? b.low.y : b.high.y);
+  const Vec2<Exact> at = position_at(s, out.t);
+  const Vec2<Exact> v = velocity_at(s, out.t);
+  out.t = nearer_root(out.t, Exact((is_x ? at.x : at.y) - line), is_x ? v.x : v.y);
+  return out;
 }
 
 }  // namespace poolhall::physics

@@ -19,6 +19,10 @@ struct Coefficients {
   Real roll_acceleration{};   // m/s^2, mu_r g
   Real slide_spin_rate{};     // rad/s^2, 5 mu_s g / (2R), from (9)
   Real spin_deceleration{};   // rad/s^2, 5 mu_sp g / (2R), from (10), or as given
+  Real slide_time{};          // s per m/s of slip, 2 / (7 mu_s g), from (13)
+  Real roll_time{};           // s per m/s, 1 / (mu_r g), from (17)
+  Real lever{};               // 1/m, 5 / (2R): a ball's m / I times R
+  Real inverse_radius{};      // 1/m
   Real restitution{};         // e_b
   Real separation_speed{};    // m/s
 };
@@ -39,6 +43,13 @@ template <class Real>
   } else if (m.mu_spin) {
     c.spin_deceleration = Real(5) * (Real(*m.mu_spin) * gravity) / c.diameter;
   }
+  // Without friction a slide or roll lasts longer than anything we ask for.
+  const Real endless(1e100);
+  c.slide_time =
+      c.slide_acceleration > Real(0) ? Real(Real(2) / (Real(7) * c.slide_acceleration)) : endless;
+  c.roll_time = c.roll_acceleration > Real(0) ? Real(Real(1) / c.roll_acceleration) : endless;
+  c.lever = Real(5) / c.diameter;
+  c.inverse_radius = Real(1) / c.radius;
   c.restitution = Real(m.ball_restitution);
   c.separation_speed = Real(m.separation_speed);
   return c;

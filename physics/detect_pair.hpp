@@ -2,7 +2,7 @@
 // above: a receding pair never meets at t ~ 0 (Bannerman, Strobl, Formella, Poeschel 2014).
 // Finds, never changes anything.
 //
-//   PairMotion<double> pair = pair_motion(first, second, now, c);
+//   PairMotion<double> pair = pair_motion(first, second, now, reach_squared);
 //   std::optional<double> t = first_contact(pair, horizon);  // s after `now`
 #pragma once
 
@@ -174,49 +174,70 @@ template <class Real>
   return std::nullopt;
 }
 
-// Where the gap is convex and falling, Newton's steps from the left never pass the first root.
-// Nothing if they come to the minimum: `search_contact` then settles a graze.
+// Whether the gap is convex on all of [0, T]: the Bernstein ordinates of half its second
+// derivative.
 template <class Real>
-[[nodiscard]] std::optional<Real> convex_contact(const PairMotion<Real>& p, const Real& T) {
+[[nodiscard]] bool is_convex(const GapPolynomial<Real>& c, const Real& T) {
+  const Real linear = Real(3) * c.c3 * T;
+  const Real margin =
+      bernstein_margin<Real>() * (c.size2 + Real(3) * T * (c.size3 + Real(2) * T * c.c4));
+  return c.c2 > margin && c.c2 + linear / Real(2) > margin &&
+         c.c2 + linear + Real(6) * c.c4 * T * T > margin;
+}
+
+// Where the gap is convex and falls, Newton's steps from the left never pass the first root, and
+// come to the minimum if there is none. Grazes, and what takes too long, are left to the search.
+template <class Real>
+[[nodiscard]] std::optional<Real> convex_contact(const PairMotion<Real>& p,
+                                                 const GapPolynomial<Real>& c, const Real& T) {
+  const Real graze = bernstein_margin<Real>() * c.size0;
   Real t(0);
   for (int i = 0; i < 24; ++i) {
     const Vec2<Real> d = p.distance_at(t);
-    const Vec2<Real> v = p.velocity + t * p.acceleration;
-    const Real half_slope = dot(d, v);
-    if (!(half_slope < Real(0))) {
+    const Real gap = dot(d, d) - p.reach_squared;
+    const Real slope = Real(2) * dot(d, p.velocity + t * p.acceleration);
+    if (!(slope < Real(0))) {
+      return gap > graze ? std::nullopt : search_contact(p, c, T);
+    }
+    const Real step = -gap / slope;
+    if (step <= Real(2) * std::numeric_limits<Real>::epsilon() * t) {
+      return t;
+    }
+    t += step;
+    if (t > T) {
       return std::nullopt;
     }
-    const Real step = (p.reach_squared - dot(d, d)) / (half_slope + half_slope);
-    const Real next = t + step;
-    if (step <= std::numeric_limits<Real>::epsilon() * t) {
-      return next;
-    }
-    if (next > T) {
-      return std::nullopt;
-    }
-    t = next;
   }
-  return std::nullopt;
+  return search_contact(p, c, T);
 }
 
 // The first contact in [0, T].
 template <class Real>
 [[nodiscard]] std::optional<Real> first_contact(const PairMotion<Real>& p, const Real& T) {
   const GapPolynomial<Real> c = gap_polynomial(p);
-  if (c.c1 < Real(0) ? stays_apart(c, T) : never_approaches(c, T)) {
+  if (!(c.c1 < Real(0))) {
+    return never_approaches(c, T) ? std::nullopt : search_contact(p, c, T);
+  }
+  if (stays_apart(c, T)) {
     return std::nullopt;
   }
-  return search_contact(p, c, T);
+  return c.c0 > Real(0) && is_convex(c, T) ? convex_contact(p, c, T) : search_contact(p, c, T);
+}
+
+template <class Real>
+[[nodiscard]] PairMotion<Real> pair_motion(const Segment<Real>& first, const Segment<Real>& second,
+                                           const Instant<Real>& now, const Real& reach_squared) {
+  const Real t1 = now - first.start;
+  const Real t2 = now - second.start;
+  return {position_at(second, t2) - position_at(first, t1),
+          velocity_at(second, t2) - velocity_at(first, t1),
+          second.acceleration - first.acceleration, reach_squared};
 }
 
 template <class Real>
 [[nodiscard]] PairMotion<Real> pair_motion(const Segment<Real>& first, const Segment<Real>& second,
                                            const Instant<Real>& now, const Coefficients<Real>& c) {
-  const Real t1 = now - first.start;
-  const Real t2 = now - second.start;
-  return {position_at(second, t2) - position_at(first, t1),
-          velocity_at(second, t2) - velocity_at(first, t1),
-          second.acceleration - first.acceleration, c.reach_squared};
+  return pair_motion(first, second, now, c.reach_squared);
 }
 
 }  // namespace poolhall::physics

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <optional>
 
@@ -24,22 +25,14 @@
 #include "physics/lean.hpp"
 #include "physics/simulator.hpp"
 #include "physics/watch.hpp"
+#include "physics/wide.hpp"
 
 namespace poolhall::physics {
 
 template <class Real, class Policy = Lean>
 class EventLoop {
  public:
-  EventLoop(const Table& table, const Materials& materials)
-      : materials_(materials),
-        c_(coefficients<Real>(materials)),
-        boundary_(boundary<Real>(table, c_.radius)),
-        jaws_(std::holds_alternative<Jaws>(table.pockets)
-                  ? JawTable<Real>(table, materials.ball_radius)
-                  : JawTable<Real>()),
-        has_jaws_(std::holds_alternative<Jaws>(table.pockets)),
-        nose_(nose_angle<Real>(table, materials)),
-        cluster_(c_) {}
+  EventLoop(const Table& table, const Materials& materials);
 
   template <class Watch>
   Ending run(const BallSet<Real>& balls, const std::optional<CueShot<Real>>& shot,
@@ -51,6 +44,8 @@ class EventLoop {
   [[nodiscard]] std::uint32_t events() const { return events_; }
 
  private:
+  using Exact = Wide<Real>;
+
   // What a ball does next, in the order in which simultaneous events happen.
   enum class Next : std::uint8_t { transition, pocket, rail, contact, nothing };
 
@@ -62,26 +57,45 @@ class EventLoop {
 
   // A ball's motion, what ends it if no other ball comes, and what comes first.
   struct Body {
-    Segment<Real> motion{};
-    BoundaryHit<Real> hit{};
+    Segment<Exact> exact{};
+    Segment<Real> motion{};  // `exact` rounded, for searching
+    BoundaryHit<Exact> hit{};
     Candidate own{};
     Candidate next{};
-    Span<Real> across{};  // of the centre's x until `own`
-    Span<Real> along{};   // of the centre's y
     BallId id{};
-    bool moves = false;
-    bool down = false;
+  };
+
+  // The bounding boxes of the centres' paths until `own`, by ball index.
+  struct Boxes {
+    std::array<Real, max_balls> left{}, right{}, head{}, foot{};
   };
 
   using Indices = std::uint32_t;  // a set of ball indices, one bit each
+  [[nodiscard]] static constexpr Indices only(std::size_t i) { return Indices{1} << i; }
 
   void place(const BallSet<Real>& balls);
-  void begin_motion(std::size_t i, const Ball<Real>& ball);
+  void begin_motion(std::size_t i, const Ball<Exact>& ball);
+  void begin_rest(std::size_t i, const Ball<Exact>& ball);
+  void set_box(std::size_t i, const Span<Real>& across, const Span<Real>& along);
+  void find_own_event(std::size_t i);
   void refresh(Indices changed);
-  void sweep(std::size_t i, Indices done);
+  void sweep(std::size_t i, Indices others);
+  [[nodiscard]] Indices near(const Span<Real>& across, const Span<Real>& along, const Real& reach,
+                             Indices among) const;
   void look_for_contact(std::size_t i, std::size_t k);
+  [[nodiscard]] Exact refined(std::size_t i, std::size_t k, const Real& t) const;
+  void set_next(std::size_t i, const Candidate& next);
   [[nodiscard]] std::size_t earliest() const;
   [[nodiscard]] bool precedes(std::size_t i, std::size_t k) const;
+
+  [[nodiscard]] Exact elapsed(std::size_t i) const;
+  [[nodiscard]] Ball<Exact> ball_now(std::size_t i) const;
+  [[nodiscard]] bool is_crowded(std::size_t i, std::size_t k) const;
+  [[nodiscard]] Hop hop(const Exact& closing) const;
+  void account(const Exact& before, const Exact& after);
+  [[nodiscard]] Real energy_now() const;
+  void finish(const Instant<Real>& at);
+
   template <class Watch>
   [[nodiscard]] Go strike_cue_ball(const CueShot<Real>& shot, Watch& watch);
   template <class Watch>
@@ -92,37 +106,47 @@ class EventLoop {
   [[nodiscard]] Go pocket(std::size_t i, Watch& watch);
   template <class Watch>
   [[nodiscard]] Go bounce(std::size_t i, Watch& watch);
-  [[nodiscard]] bool is_crowded(std::size_t i, std::size_t k) const;
-  template <class Watch>
-  [[nodiscard]] Go meet_together(std::size_t i, std::size_t k, Watch& watch);
   template <class Watch>
   [[nodiscard]] Go meet(std::size_t i, std::size_t k, Watch& watch);
   template <class Watch>
-  [[nodiscard]] Go tell(Watch& watch, const Event<Real>& event, Hop hop);
-  [[nodiscard]] Ball<Real> ball_now(std::size_t i) const;
-  [[nodiscard]] Hop hop(const Real& closing) const;
-  void account(const Real& before, const Real& after);
-  void finish(const Instant<Real>& at);
-  [[nodiscard]] Real energy_now() const;
+  [[nodiscard]] Go meet_together(std::size_t i, std::size_t k, Watch& watch);
+  template <class Watch>
+  [[nodiscard]] Go tell(Watch& watch, EventType type, const Ball<Exact>& after,
+                        const BoundaryHit<Exact>* hit = nullptr, Hop hop_kind = Hop::no) const;
+  template <class Watch>
+  [[nodiscard]] Go tell_contact(Watch& watch, const Ball<Exact>& first, const Ball<Exact>& second,
+                                Hop hop_kind) const;
 
   Materials materials_;
-  Coefficients<Real> c_;
+  Coefficients<Exact> c_;
+  Real reach_{};  // m, 2R
+  Real reach_squared_{};
   Boundary<Real> boundary_;
-  JawTable<Real> jaws_;
+  Boundary<Exact> exact_boundary_;
   bool has_jaws_;
-  NoseAngle<Real> nose_;
-  ContactCluster<Real> cluster_;
+  JawTable<Real> jaws_;
+  JawTable<Exact> exact_jaws_;
+  NoseAngle<Exact> nose_;
+  ContactCluster<Exact> cluster_;
   ContactModel contact_ = ContactModel::cluster;
   RootSolver solver_ = RootSolver::bracketed;
   std::array<Body, max_balls> bodies_{};
+  Boxes boxes_{};
+  Indices present_ = 0;  // not pocketed
+  Indices moving_ = 0;
+  Indices busy_ = 0;     // something comes next
+  Indices touched_ = 0;  // moved at some time
+  Indices meeting_ = 0;  // and it is a contact
   std::size_t count_ = 0;
   Instant<Real> now_{};
   Instant<Real> last_{};
   std::uint32_t events_ = 0;
   BallSet<Real> balls_{};
   EnergyAccount<Real> energy_{};
+  Exact added_{};
 };
 
 }  // namespace poolhall::physics
 
-#include "physics/event_loop_impl.hpp"
+#include "physics/event_loop_run.hpp"
+#include "physics/event_loop_search.hpp"

@@ -16,18 +16,18 @@ namespace poolhall::physics {
 
 // Why a scene or a shot was refused, or why a simulation stopped before its end.
 enum class Fault : std::uint8_t {
-  not_finite,           // a number is NaN or infinite
-  out_of_range,         // a number is outside its documented range
-  overlap,              // two balls in one place
-  outside_table,        // a ball beyond a rail or a mouth line
-  inconsistent_state,   // a given motion state contradicts the velocities
-  duplicate_ball,       // two balls with one id
-  no_cue_ball,          // a shot without a cue ball on the table
-  tip_off_ball,         // a^2 + b^2 > R^2
-  miscue,               // the line of the cue passes the ball's centre beyond the miscue limit
-  cue_obstructed,       // the cue stick would pass through a ball or a rail
-  event_limit,          // the bound on the number of events was met
-  bad_table,            // a table whose geometry contradicts itself
+  not_finite,          // a number is NaN or infinite
+  out_of_range,        // a number is outside its documented range
+  overlap,             // two balls in one place
+  outside_table,       // a ball beyond a rail or a mouth line
+  inconsistent_state,  // a given motion state contradicts the velocities
+  duplicate_ball,      // two balls with one id
+  no_cue_ball,         // a shot without a cue ball on the table
+  tip_off_ball,        // a^2 + b^2 > R^2
+  miscue,              // the line of the cue passes the ball's centre beyond the miscue limit
+  cue_obstructed,      // the cue stick would pass through a ball or a rail
+  event_limit,         // the bound on the number of events was met
+  bad_table,           // a table whose geometry contradicts itself
 };
 
 [[nodiscard]] std::string_view name(Fault fault);

@@ -45,4 +45,13 @@ template <class Real>
   return {high, lost - (high - sum)};
 }
 
+// The same by a wider number: what `Real` cannot hold of it goes to `low`.
+template <class Real, class Wider>
+[[nodiscard]] constexpr Instant<Real> later(const Instant<Real>& from, const Wider& by) {
+  const Real rounded = static_cast<Real>(by);
+  Instant<Real> sum = later(from, rounded);
+  sum.low += static_cast<Real>(by - Wider(rounded));
+  return later(Instant<Real>{sum.high, Real(0)}, sum.low);
+}
+
 }  // namespace poolhall::physics

@@ -50,6 +50,33 @@ class JawTable {
     return best;
   }
 
+  // A hit that a search in another precision found, in this one: see boundary.hpp.
+  template <class Other>
+  [[nodiscard]] BoundaryHit<Real> refined_hit(const BoundaryHit<Other>& hit,
+                                              const Segment<Real>& s) const {
+    BoundaryHit<Real> out{Real(hit.t), hit.kind, hit.rail, hit.pocket, {}, hit.surface, hit.index};
+    const Vec2<Real> at = position_at(s, out.t);
+    const Vec2<Real> v = velocity_at(s, out.t);
+    if (hit.surface == Surface::facing) {
+      const Facing<Real>& facing = geometry_.facings[hit.index];
+      out.into = facing.into;
+      if (hit.t != Other(0)) {
+        out.t = nearer_root(out.t, Real(dot(facing.from - at, facing.into) - radius_),
+                            Real(-dot(v, facing.into)));
+      }
+    } else if (hit.surface == Surface::arc) {
+      const JawArc<Real>& arc = geometry_.arcs[hit.index];
+      const Real reach = arc.radius + radius_;
+      const Vec2<Real> d = at - arc.centre;
+      if (hit.t != Other(0)) {
+        out.t = nearer_root(out.t, Real(dot(d, d) - reach * reach), Real(Real(2) * dot(d, v)));
+      }
+      const Vec2<Real> out_of_arc = position_at(s, out.t) - arc.centre;
+      out.into = (Real(-1) / length(out_of_arc)) * out_of_arc;
+    }
+    return out;
+  }
+
   // Whether a ball may lie with its centre there, but for `slack`.
   [[nodiscard]] bool has_room(const Vec2<Real>& p, const Real& slack) const {
     bool in_zone = false;
@@ -87,22 +114,23 @@ class JawTable {
                    BoundaryHit<Real>& best) const {
     const auto drop = first_contact(to_circle(s, hole.centre, hole.radius), best.t, solver);
     if (drop) {
-      keep_earlier(best, {*drop, HitKind::pocket, {}, hole.pocket, {}, Surface::straight});
+      keep_earlier(best, {*drop, HitKind::pocket, {}, hole.pocket, {}, Surface::hole});
     }
-    for (const JawArc<Real>& arc : geometry_.arcs) {
-      if (arc.pocket == hole.pocket) {
-        meet_arc(s, arc, solver, best);
+    for (std::uint8_t i = 0; i < geometry_.arcs.size; ++i) {
+      if (geometry_.arcs[i].pocket == hole.pocket) {
+        meet_arc(s, i, solver, best);
       }
     }
-    for (const Facing<Real>& facing : geometry_.facings) {
-      if (facing.pocket == hole.pocket) {
-        meet_facing(s, facing, best);
+    for (std::uint8_t i = 0; i < geometry_.facings.size; ++i) {
+      if (geometry_.facings[i].pocket == hole.pocket) {
+        meet_facing(s, i, best);
       }
     }
   }
 
-  void meet_arc(const Segment<Real>& s, const JawArc<Real>& arc, RootSolver solver,
+  void meet_arc(const Segment<Real>& s, std::uint8_t index, RootSolver solver,
                 BoundaryHit<Real>& best) const {
+    const JawArc<Real>& arc = geometry_.arcs[index];
     const auto t =
         first_contact(to_circle(s, arc.centre, Real(arc.radius + radius_)), best.t, solver);
     if (!t) {
@@ -111,12 +139,12 @@ class JawTable {
     const Vec2<Real> out = position_at(s, *t) - arc.centre;
     const Vec2<Real> into = (Real(-1) / length(out)) * out;
     if (is_between(arc, out)) {
-      keep_earlier(best, {*t, HitKind::rail, arc.rail, {}, into, Surface::jaw});
+      keep_earlier(best, {*t, HitKind::rail, arc.rail, {}, into, Surface::arc, index});
     }
   }
 
-  void meet_facing(const Segment<Real>& s, const Facing<Real>& facing,
-                   BoundaryHit<Real>& best) const {
+  void meet_facing(const Segment<Real>& s, std::uint8_t index, BoundaryHit<Real>& best) const {
+    const Facing<Real>& facing = geometry_.facings[index];
     const Real t = first_closing(Real(dot(facing.from - s.position, facing.into) - radius_),
                                  Real(-dot(s.velocity, facing.into)),
                                  Real(-dot(s.acceleration, facing.into)), forever<Real>());
@@ -125,7 +153,7 @@ class JawTable {
     }
     const Real way = dot(position_at(s, t) - facing.from, facing.along);
     if (way >= Real(0) && way <= facing.length) {
-      keep_earlier(best, {t, HitKind::rail, facing.rail, {}, facing.into, Surface::jaw});
+      keep_earlier(best, {t, HitKind::rail, facing.rail, {}, facing.into, Surface::facing, index});
     }
   }
 
@@ -143,7 +171,7 @@ class JawTable {
     const Vec2<Real> there = position_at(s, t);
     const Real way = is_x ? there.y : there.x;
     if (way >= rail.begin && way <= rail.end) {
-      keep_earlier(best, {t, HitKind::rail, rail.rail, {}, rail.into, Surface::straight});
+      keep_earlier(best, {t, HitKind::rail, rail.rail, {}, rail.into, Surface::line});
     }
   }
 

@@ -58,14 +58,23 @@ template <class Real>
 [[nodiscard]] Vec3<Real> rolling_spin(const Vec2<Real>& v, const Real& w_z, const Real& radius) {
   return {-v.y / radius, v.x / radius, w_z};
 }
-
-// `ball` with the state that its velocities imply, and w exact where it rolls.
 template <class Real>
-[[nodiscard]] Ball<Real> settled(Ball<Real> ball, const Real& radius) {
+[[nodiscard]] Vec3<Real> rolling_spin(const Vec2<Real>& v, const Real& w_z,
+                                      const Coefficients<Real>& c) {
+  return {-(v.y * c.inverse_radius), v.x * c.inverse_radius, w_z};
+}
+
+// Gives `ball` the state that its velocities imply, and w exact where it rolls.
+template <class Real>
+void settle(Ball<Real>& ball, const Real& radius) {
   ball.state = motion_state_of(ball.velocity, ball.angular_velocity, radius);
   if (ball.state == MotionState::rolling) {
     ball.angular_velocity = rolling_spin(ball.velocity, ball.angular_velocity.z, radius);
   }
+}
+template <class Real>
+[[nodiscard]] Ball<Real> settled(Ball<Real> ball, const Real& radius) {
+  settle(ball, radius);
   return ball;
 }
 
@@ -82,8 +91,8 @@ struct Segment {
 };
 
 template <class Real>
-[[nodiscard]] Real time_until(const Real& speed, const Real& deceleration) {
-  return speed < forever<Real>() * deceleration ? Real(speed / deceleration) : forever<Real>();
+[[nodiscard]] Real at_most_forever(const Real& t) {
+  return t < forever<Real>() ? t : forever<Real>();
 }
 
 // `size` against the direction of v, whose length is `speed`.
@@ -95,12 +104,11 @@ template <class Real>
   return {-size * (v.x / speed), -size * (v.y / speed)};
 }
 
-// The motion that begins with `ball` at `start`.
+// Makes `s` the motion that begins with `ball` at `start`.
 template <class Real>
-[[nodiscard]] Segment<Real> segment(const Ball<Real>& ball, const Instant<Real>& start,
-                                    const Coefficients<Real>& c) {
+void begin_segment(Segment<Real>& s, const Ball<Real>& ball, const Instant<Real>& start,
+                   const Coefficients<Real>& c) {
   using std::abs;
-  Segment<Real> s;
   s.start = start;
   s.position = ball.position;
   s.velocity = ball.velocity;
@@ -108,17 +116,30 @@ template <class Real>
   s.state = ball.state;
   s.duration = forever<Real>();
   if (s.state == MotionState::sliding) {
-    s.slip = cloth_slip(s.velocity, s.angular_velocity, c.radius);
+    s.slip = cloth_slip(ball.velocity, ball.angular_velocity, c.radius);
     const Real speed = length(s.slip);
-    s.acceleration = against(s.slip, speed, c.slide_acceleration);                         // (8)
-    s.duration = time_until(Real(Real(2) * speed), Real(Real(7) * c.slide_acceleration));  // (13)
-  } else if (s.state == MotionState::rolling) {
-    const Real speed = length(s.velocity);
-    s.acceleration = against(s.velocity, speed, c.roll_acceleration);  // (15)
-    s.duration = time_until(speed, c.roll_acceleration);               // (17)
-  } else if (s.state == MotionState::spinning) {
-    s.duration = time_until(Real(abs(s.angular_velocity.z)), c.spin_deceleration);  // (10)
+    s.acceleration = against(s.slip, speed, c.slide_acceleration);  // (8)
+    s.duration = at_most_forever(Real(speed * c.slide_time));       // (13)
+    return;
   }
+  s.slip = {};
+  s.acceleration = {};
+  if (s.state == MotionState::rolling) {
+    const Real speed = length(ball.velocity);
+    s.acceleration = against(ball.velocity, speed, c.roll_acceleration);  // (15)
+    s.duration = at_most_forever(Real(speed * c.roll_time));              // (17)
+  } else if (s.state == MotionState::spinning) {
+    const Real spin = abs(ball.angular_velocity.z);
+    if (spin < forever<Real>() * c.spin_deceleration) {
+      s.duration = spin / c.spin_deceleration;  // (10)
+    }
+  }
+}
+template <class Real>
+[[nodiscard]] Segment<Real> segment(const Ball<Real>& ball, const Instant<Real>& start,
+                                    const Coefficients<Real>& c) {
+  Segment<Real> s;
+  begin_segment(s, ball, start, c);
   return s;
 }
 
@@ -153,12 +174,12 @@ template <class Real>
                                              const Coefficients<Real>& c) {
   const Real w_z = vertical_spin_at(s, t, c);
   if (s.state == MotionState::rolling) {
-    return rolling_spin(velocity_at(s, t), w_z, c.radius);
+    return rolling_spin(velocity_at(s, t), w_z, c);
   }
   if (s.state != MotionState::sliding) {
     return {Real(0), Real(0), w_z};
   }
-  const Real turn = Real(5) * t / c.diameter;
+  const Real turn = t * c.lever;
   return {s.angular_velocity.x + turn * s.acceleration.y,
           s.angular_velocity.y - turn * s.acceleration.x, w_z};
 }
@@ -193,7 +214,7 @@ template <class Real>
     const Real scale = length(s.velocity) + length(around);
     if (length(left) > negligible_slip<Real>() * scale) {
       ball.velocity = left;
-      ball.angular_velocity = rolling_spin(left, w_z, c.radius);
+      ball.angular_velocity = rolling_spin(left, w_z, c);
       ball.state = MotionState::rolling;
     }
   }

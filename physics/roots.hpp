@@ -58,6 +58,19 @@ template <class Real>
   return (speed + sqrt(discriminant)) / -acceleration;
 }
 
+// One step of Newton's from a root that is right but for rounding; where the slope is so small that
+// the step is not, the root stays.
+template <class Real>
+[[nodiscard]] Real nearer_root(const Real& t, const Real& value, const Real& slope) {
+  using std::abs;
+  if (slope == Real(0)) {
+    return t;
+  }
+  const Real step = value / slope;
+  const Real next = t - step;
+  return abs(step) <= Real(1e-9) && next > Real(0) ? next : t;
+}
+
 // A root of `value` between `low` and `high`, where its sign differs; `slope` is its derivative.
 // Newton's steps, halving where they leave the bracket or shrink too slowly.
 template <class Real, class Value, class Slope>

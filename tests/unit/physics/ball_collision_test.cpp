@@ -108,7 +108,7 @@ TEST(BallCollision, SwappingTheBallsSwapsTheResultBitForBit) {
 TEST(BallCollision, SlowPairPartsAtTheSeparationSpeed) {
   const Materials m = smooth();
   const auto after = hit(at({0, 0}, {1e-5, 0}), at({2 * m.ball_radius, 0}), m);
-  EXPECT_TRUE(after.raised);
+  EXPECT_TRUE(after.impact.raised);
   EXPECT_NEAR(after.second.velocity.x - after.first.velocity.x, 1e-3, 1e-18);
 }
 
