@@ -69,7 +69,7 @@ Verdict judge_break(const Shot& shot) {
       standard_fouls(shot.ready, shot.facts,
                      {.first_balls = {}, .right_ball_first = false, .rail_after_contact = false},
                      shot.venue.table);
-  const std::optional<FoulRecord> illegal = illegal_break(shot.facts);
+  const std::optional<FoulRecord> illegal = illegal_break(shot.facts, "3.3");
   GameState after = shot.after;
   std::vector<Finding> notes = std::move(report.notes);
   if (applies(clauses::break_eight_off, shot.facts.is_off(the_eight))) {

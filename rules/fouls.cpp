@@ -149,16 +149,19 @@ FoulReport standard_fouls(const GameState& ready, const ShotFacts& facts, const 
   return report;
 }
 
-std::optional<FoulRecord> illegal_break(const ShotFacts& facts) {
+std::optional<FoulRecord> illegal_break(const ShotFacts& facts, std::string_view rule) {
   const std::size_t driven = facts.object_balls_driven_to_rail();
   const bool legal = applies(clauses::break_pocketed, facts.object_ball_pocketed()) ||
                      applies(clauses::four_to_a_rail, driven >= 4);
   if (!applies(clauses::illegal_break, !legal)) {
     return std::nullopt;
   }
-  return foul(FoulCode::illegal_break, clauses::illegal_break,
-              "no ball was pocketed and " + std::to_string(driven) +
-                  " object balls were driven to a rail, not at least four");
+  FoulRecord record =
+      foul(FoulCode::illegal_break, clauses::illegal_break,
+           "no ball was pocketed and " + std::to_string(driven) + " object ball" +
+               (driven == 1 ? " was" : "s were") + " driven to a rail, not at least four");
+  record.rule = rule;
+  return record;
 }
 
 }  // namespace poolhall::rules

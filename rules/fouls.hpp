@@ -5,6 +5,7 @@
 
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "rules/clause.hpp"
@@ -29,8 +30,10 @@ struct FoulReport {
 [[nodiscard]] FoulReport standard_fouls(const GameState& ready, const ShotFacts& facts,
                                         const Duties& duties, const physics::Table& table);
 
-// The foul of a break that neither pockets an object ball nor drives four to a rail.
-[[nodiscard]] std::optional<FoulRecord> illegal_break(const ShotFacts& facts);
+// The foul of a break that neither pockets an object ball nor drives four to a rail; `rule` is
+// where the game's own rules say so.
+[[nodiscard]] std::optional<FoulRecord> illegal_break(const ShotFacts& facts,
+                                                      std::string_view rule);
 
 [[nodiscard]] FoulRecord foul(FoulCode code, const Clause& clause, const std::string& detail,
                               std::optional<std::size_t> event = std::nullopt);

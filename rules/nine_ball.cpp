@@ -165,7 +165,7 @@ Verdict judge(const Shot& shot) {
   const Seat shooter = shot.ready.to_move;
   FoulReport report = standard_fouls(shot.ready, shot.facts, duties_of(shot), shot.venue.table);
   if (shot.ready.kind == TurnKind::break_shot) {
-    if (const auto illegal = illegal_break(shot.facts)) {
+    if (const auto illegal = illegal_break(shot.facts, "2.3")) {
       report.fouls.push_back(*illegal);
     }
   }
