@@ -153,8 +153,10 @@ std::uint32_t games_to_play() {
   return text == nullptr ? 4 : static_cast<std::uint32_t>(std::stoul(text));
 }
 
+class EitherGame : public testing::TestWithParam<rules::RuleSet> {};
+
 // POOLHALL_STRENGTH_GAMES=100 measures what the README states; a few games guard it.
-TEST(GreedyBot, BeatsRandomAtOlympiadNoise) {
+TEST_P(EitherGame, GreedyBeatsRandomAtOlympiadNoise) {
   const std::uint32_t games = games_to_play();
   std::uint32_t won = 0;
   SeatRecord greedy;
@@ -165,6 +167,7 @@ TEST(GreedyBot, BeatsRandomAtOlympiadNoise) {
     ExhibitionSettings settings;
     settings.seed = 1000 + i;
     settings.game.rack_seed = 1000 + i;
+    settings.game.rules = GetParam();
     const auto game = is_first ? play_exhibition(settings, {strong, weak})
                                : play_exhibition(settings, {weak, strong});
     ASSERT_EQ(game.fault, "") << "game " << i;
@@ -186,6 +189,13 @@ TEST(GreedyBot, BeatsRandomAtOlympiadNoise) {
       100.0 * greedy.fouls / greedy.shots, ms(greedy.thinking) / greedy.shots, ms(greedy.longest));
   EXPECT_GE(won * 100, games * 95);
 }
+
+INSTANTIATE_TEST_SUITE_P(GreedyBot, EitherGame,
+                         testing::Values(rules::RuleSet::eight_ball, rules::RuleSet::nine_ball),
+                         [](const auto& game) {
+                           return game.param == rules::RuleSet::eight_ball ? "EightBall"
+                                                                           : "NineBall";
+                         });
 
 }  // namespace
 }  // namespace poolhall::bots
