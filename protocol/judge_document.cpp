@@ -258,6 +258,10 @@ Expected<std::string> judged(const Document& document) {
   if (document.decision) {
     return decided(document);
   }
+  if (document.lost_turn && document.state.result) {
+    return tl::unexpected(
+        refused({rules::RefusalCode::bad_shot, "", "the game is over, no turn can be lost"}));
+  }
   if (document.lost_turn) {
     return answer(rules::judge_lost_turn(document.state, *document.lost_turn, document.table,
                                          document.materials),

@@ -14,13 +14,17 @@ void framing(std::string_view input);         // two bytes of settings, then a s
 void server_message(std::string_view input);  // a byte for the method, then a server's line
 void scene(std::string_view input);           // a scene file
 void record(std::string_view input);          // a stored state, event log or ruling
+void judge(std::string_view input);           // a document for the referee
 
 struct Target {
   std::string_view name;  // also of its corpus' folder
   void (*run)(std::string_view);
 };
-inline constexpr std::array targets{Target{"request", request}, Target{"framing", framing},
+inline constexpr std::array targets{Target{"request", request},
+                                    Target{"framing", framing},
                                     Target{"server_message", server_message},
-                                    Target{"scene", scene}, Target{"record", record}};
+                                    Target{"scene", scene},
+                                    Target{"record", record},
+                                    Target{"judge", judge}};
 
 }  // namespace poolhall::fuzz
