@@ -47,10 +47,12 @@ void write_five(JsonWriter& out, const char* key, const FiveNumbers& five) {
   out.end_object();
 }
 
-void write_terms(JsonWriter& out, const storage::TermsRecord& terms) {
+void write_terms(JsonWriter& out, const storage::TermsRecord& terms, Secrets secrets) {
   out.key("terms").begin_object().key("rules").string(rules::name(terms.rules));
   out.key("table").string(terms.table).key("materials").string(terms.materials);
-  out.key("noise").string(terms.noise).key("noise_hidden").boolean(terms.noise_hidden);
+  const bool is_told = secrets == Secrets::revealed || !terms.noise_hidden;
+  out.key("noise").string(is_told ? terms.noise : "hidden");
+  out.key("noise_hidden").boolean(terms.noise_hidden);
   out.key("rack_gap").number(terms.rack_gap).key("rack_jitter").number(terms.rack_jitter);
   out.key("clock_us").integer(std::int64_t{terms.clock.count()});
   out.key("increment_us").integer(std::int64_t{terms.increment.count()}).key("shot_cap_us");
@@ -75,7 +77,7 @@ std::string tournament_line(const storage::TournamentRecord& tournament,
   return std::move(out).text();
 }
 
-std::string match_line(const storage::MatchRecord& match) {
+std::string match_line(const storage::MatchRecord& match, Secrets secrets) {
   JsonWriter out;
   out.begin_object().key("match").begin_object().key("id").integer(protocol::number(match.id));
   write_optional(out, "tournament", match.tournament);
@@ -86,7 +88,7 @@ std::string match_line(const storage::MatchRecord& match) {
     out.null();
   write_agents(out, match.agents);
   out.key("games").integer(match.games).key("over").boolean(match.over);
-  write_terms(out, match.terms);
+  write_terms(out, match.terms, secrets);
   out.end_object().end_object();
   return std::move(out).text();
 }
@@ -99,7 +101,7 @@ std::string game_line(const storage::GameRecord& game, Secrets secrets) {
   out.key("attempt").integer(game.attempt);
   write_agents(out, game.agents);
   out.key("breaker").integer(index(game.breaker));
-  write_terms(out, game.terms);
+  write_terms(out, game.terms, secrets);
   out.key("rack_seed").integer(game.rack_seed);
   if (is_revealed || !game.terms.noise_hidden)
     write_five(out, "noise", game.noise);
@@ -190,12 +192,13 @@ Expected<void> export_agents_and_tournaments(storage::Reader& reader, const Line
 
 Expected<void> export_match(storage::Reader& reader, const storage::MatchRecord& match,
                             const Line& line) {
-  line(match_line(match));
+  const Secrets secrets = match.over ? Secrets::revealed : Secrets::kept;
+  line(match_line(match, secrets));
   const auto games = reader.games_of(match.id);
   if (!games)
     return tl::unexpected(games.error());
   for (const storage::GameRecord& game : *games) {
-    line(game_line(game, match.over ? Secrets::revealed : Secrets::kept));
+    line(game_line(game, secrets));
     const auto done = reader.each_turn(game.id, [&](const storage::TurnRecord& turn) {
       line(turn_line(turn));
       return true;

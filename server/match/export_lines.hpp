@@ -14,8 +14,8 @@
 //
 // Agents come first, then tournaments, then the matches with their games and their turns, each in
 // the order of their ids. Absent values are null; units are the wire's, times microseconds,
-// digests hexadecimal. A key, and the noise of a hidden track, are null until the match is over.
-// Tokens are never exported.
+// digests hexadecimal. Until the match is over keys are null, and the noise of a game whose players
+// are not told it is "hidden" in the terms and null in the game. Tokens are never exported.
 //
 //   auto done = export_lines(*reader, [&](const std::string& line) { out << line << '\n'; });
 #pragma once

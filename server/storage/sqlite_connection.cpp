@@ -1,6 +1,8 @@
 #include "server/storage/sqlite_connection.hpp"
 
+#include <fcntl.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <cstdint>
 #include <system_error>
@@ -60,6 +62,14 @@ std::string words(StorageFault fault) {
   }
 }
 
+// Noise keys of games that go on are in the file: only its owner may read it. SQLite gives the log
+// beside it the same permissions.
+void create_for_owner_alone(const std::filesystem::path& file) {
+  const int descriptor = ::open(file.c_str(), O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (descriptor >= 0)
+    close(descriptor);
+}
+
 }  // namespace
 
 StorageError storage_error(const SQLite::Exception& exception, const std::string& file) {
@@ -94,6 +104,8 @@ Expected<std::unique_ptr<SqliteConnection>> SqliteConnection::open(
     const std::filesystem::path& file, Access access) {
   if (auto checked = check_path(file, access); !checked)
     return tl::unexpected(checked.error());
+  if (access == Access::owner)
+    create_for_owner_alone(file);
   const int flags = access == Access::read_only ? SQLite::OPEN_READONLY
                                                 : SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE;
   try {

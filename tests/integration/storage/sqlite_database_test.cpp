@@ -111,6 +111,17 @@ TEST(SqliteDatabase, reads_consistently_while_the_owner_writes) {
   EXPECT_THAT(seen, testing::ElementsAre(false, false, true));
 }
 
+TEST(SqliteDatabase, lets_nobody_but_its_owner_read_the_keys_in_it) {
+  TemporaryDirectory directory;
+  auto owner = open_sqlite(directory / "test.db").value();
+  add_samples(*owner);
+  using std::filesystem::perms;
+  for (const char* name : {"test.db", "test.db-wal"}) {
+    const perms given = std::filesystem::status(directory / name).permissions();
+    EXPECT_EQ(given, perms::owner_read | perms::owner_write) << name;
+  }
+}
+
 TEST(SqliteDatabase, makes_no_file_for_a_reader) {
   TemporaryDirectory directory;
   EXPECT_FALSE(open_sqlite_reader(directory / "test.db"));
