@@ -36,6 +36,7 @@ Connection::Connection(tcp::socket socket, ConnectionId id, ConnectionContext& c
       splitter_(context.limits.line_bytes_before_login) {}
 
 Connection::~Connection() {
+  on_gone_ = nullptr;  // whoever counted may be gone by now
   close_socket();
 }
 
