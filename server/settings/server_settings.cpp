@@ -57,9 +57,6 @@ void add_queue_limits(Keys<ServerSettings>& keys) {
       "limits.output_queue_bytes", WholeNumber{64 * kib, 1024 * mib},
       [](auto& s) -> auto& { return s.limits.output_queue_bytes; });
   keys.add(
-      "limits.spectator_queue_bytes", WholeNumber{64 * kib, 1024 * mib},
-      [](auto& s) -> auto& { return s.limits.spectator_queue_bytes; });
-  keys.add(
       "limits.tcp_user_timeout_seconds", Seconds{1, 3600},
       [](auto& s) -> auto& { return s.limits.tcp_user_timeout; });
 }
