@@ -11,8 +11,10 @@ namespace poolhall::rules {
 namespace eight_ball {
 namespace {
 
-const EightBallMemory& memory_of(const GameState& state) {
-  return std::get<EightBallMemory>(state.memory);
+// An impossible state that remembers another game counts as one with an open table.
+EightBallMemory memory_of(const GameState& state) {
+  const auto* memory = std::get_if<EightBallMemory>(&state.memory);
+  return memory == nullptr ? EightBallMemory{} : *memory;
 }
 
 // 8 in the middle of the third row, a solid and a stripe in the two back corners, the rest random.

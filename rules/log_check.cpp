@@ -22,7 +22,7 @@ using physics::Vec2;
 constexpr double at_rest_tolerance = 1e-6;
 // m; a ball that moves is where the motion laws take it. Generous against contact models that
 // take time.
-constexpr double moving_tolerance = 1e-3;
+constexpr double moving_tolerance = 5e-3;
 // s; by which simultaneous events may stand in another order.
 constexpr double time_tolerance = 1e-9;
 

@@ -15,8 +15,10 @@ namespace {
 constexpr BallId the_one{1};
 constexpr BallId the_nine{9};
 
-const NineBallMemory& memory_of(const GameState& state) {
-  return std::get<NineBallMemory>(state.memory);
+// An impossible state that remembers another game counts as one without fouls.
+NineBallMemory memory_of(const GameState& state) {
+  const auto* memory = std::get_if<NineBallMemory>(&state.memory);
+  return memory == nullptr ? NineBallMemory{} : *memory;
 }
 
 // 1 on the foot spot, 9 in the middle, the rest random.
@@ -65,7 +67,7 @@ Expected<void> check(const GameState& state) {
   if (!std::holds_alternative<NineBallMemory>(state.memory)) {
     return impossible("/rules", "the state remembers another game than nine-ball");
   }
-  const NineBallMemory& memory = memory_of(state);
+  const NineBallMemory memory = memory_of(state);
   const unsigned most = state.result ? 3 : 2;
   for (std::size_t seat = 0; seat < 2; ++seat) {
     if (memory.fouls_in_a_row[seat] > most) {
@@ -156,7 +158,9 @@ Verdict after_legal_shot(const Shot& shot, Verdict verdict) {
   verdict.next =
       turn_for(std::move(verdict.next), goes_on ? shooter : other(shooter), TurnKind::shot);
   if (shot.ready.kind == TurnKind::break_shot) {
-    std::get<NineBallMemory>(verdict.next.memory).push_out_allowed = true;
+    NineBallMemory memory = memory_of(verdict.next);
+    memory.push_out_allowed = true;
+    verdict.next.memory = memory;
   }
   return verdict;
 }

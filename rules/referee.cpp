@@ -185,6 +185,9 @@ std::vector<Call::Kind> legal_calls(const GameState& state) {
 Expected<GameState> prepare_shot(const GameState& state, const Call& call,
                                  const std::optional<physics::Vec2<double>>& cue_ball,
                                  const physics::Table& table, const physics::Materials& materials) {
+  if (auto possible = check_state(state, table, materials); !possible) {
+    return tl::unexpected(possible.error());
+  }
   if (auto shot = check_turn_is_shot(state); !shot) {
     return tl::unexpected(shot.error());
   }
@@ -252,6 +255,9 @@ Ruling judge_lost_turn(const GameState& state, FoulCode code, const physics::Tab
 
 Expected<GameState> decide(const GameState& state, Decision decision, const physics::Table& table,
                            const physics::Materials& materials) {
+  if (auto possible = check_state(state, table, materials); !possible) {
+    return tl::unexpected(possible.error());
+  }
   if (state.result) {
     return refuse(RefusalCode::bad_decision, "", "the game is over");
   }

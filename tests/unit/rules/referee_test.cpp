@@ -212,7 +212,7 @@ TEST(Judge, RefusesALogOfAnotherState) {
 TEST(Judge, RefusesALogThatBreaksTheMotionLawsOrStopsTooEarly) {
   auto log = row_log(row_state("8 shot"), "0>3 3~0.6,1.2 3~0.7,1.3");
   EXPECT_EQ(log_refusal("8 shot", log), "");
-  log[3].after[0].position.x += 0.01;
+  log[3].after[0].position.x += 0.02;
   EXPECT_EQ(log_refusal("8 shot", log), "bad_event_log /events/3/after/0");
   log.pop_back();
   EXPECT_EQ(log_refusal("8 shot", log), "bad_event_log /events");
@@ -363,6 +363,33 @@ TEST(JawTable, KnowsABallFrozenToAJaw) {
   };
   EXPECT_FALSE(log_to(physics::RailId::head));
   EXPECT_TRUE(log_to(physics::RailId::head_left));
+}
+
+TEST(Referee, SurvivesStatesThatAreNone) {
+  const Call safety{Call::Kind::safety, {}, {}};
+  for (const RuleSet rules : {RuleSet::eight_ball, RuleSet::nine_ball}) {
+    GameState empty;
+    empty.settings.rules = rules;
+    empty.kind = TurnKind::ball_in_hand;
+    EXPECT_TRUE(callable_balls(empty).empty());
+    EXPECT_TRUE(legal_first_balls(empty).empty());
+    EXPECT_EQ(balls_on_table(empty).count, 0U);
+    const auto ready =
+        prepare_shot(empty, safety, physics::Vec2<double>{0.5, 0.5}, row_table(), row_materials());
+    ASSERT_FALSE(ready);
+    EXPECT_EQ(ready.error().code, RefusalCode::bad_state);
+    empty.kind = TurnKind::decision;
+    empty.options = {Decision::shoot};
+    EXPECT_FALSE(decide(empty, Decision::shoot, row_table(), row_materials()));
+    EXPECT_FALSE(judge(empty, safety, good_log(), row_table(), row_materials()));
+    GameState other_game = row_state(rules == RuleSet::eight_ball ? "8 shot" : "9 shot");
+    other_game.memory = rules == RuleSet::eight_ball
+                            ? std::variant<EightBallMemory, NineBallMemory>(NineBallMemory{})
+                            : std::variant<EightBallMemory, NineBallMemory>(EightBallMemory{});
+    EXPECT_FALSE(legal_calls(other_game).empty());
+    EXPECT_FALSE(legal_first_balls(other_game).empty());
+    EXPECT_FALSE(prepare_shot(other_game, safety, {}, row_table(), row_materials()));
+  }
 }
 
 TEST(Ended, KeepsTheFirstEnd) {
