@@ -35,6 +35,19 @@ class HertzImpact {
     if (!(fastest > Real(0))) {
       return;
     }
+    const ContactGraph<Real> before = graph;
+    compress_and_release(graph, fastest);
+    shed_gain(graph, before);
+  }
+
+  [[nodiscard]] const Real& impulse(std::size_t k) const { return impulse_[k]; }
+
+ private:
+  using Accelerations = std::array<Vec2<Real>, max_balls>;
+  // In contact times of the fastest contact; slow ones last longer, as v^(-1/5).
+  static constexpr long bound = 500;
+
+  void compress_and_release(ContactGraph<Real>& graph, const Real& fastest) {
     // A contact at speed v lasts 2.94 times its compression over v (Hertz).
     const Real compression = unit_compression_ * four_fifths_power(fastest);
     const Real dt = Real(2.94) * compression / fastest / Real(steps_);
@@ -57,12 +70,27 @@ class HertzImpact {
     }
   }
 
-  [[nodiscard]] const Real& impulse(std::size_t k) const { return impulse_[k]; }
-
- private:
-  using Accelerations = std::array<Vec2<Real>, max_balls>;
-  // In contact times of the fastest contact; slow ones last longer, as v^(-1/5).
-  static constexpr long bound = 500;
+  // The integration may end with a little more energy than there was: the motion about the common
+  // centre of mass gives it back.
+  static void shed_gain(ContactGraph<Real>& graph, const ContactGraph<Real>& before) {
+    Vec2<Real> mean{};
+    Real was(0), is(0);
+    for (std::size_t b = 0; b < graph.balls(); ++b) {
+      mean = mean + graph.velocity(b);
+      was += dot(before.velocity(b), before.velocity(b));
+      is += dot(graph.velocity(b), graph.velocity(b));
+    }
+    if (!(is > was)) {
+      return;
+    }
+    mean = (Real(1) / Real(static_cast<double>(graph.balls()))) * mean;
+    const Real common = Real(static_cast<double>(graph.balls())) * dot(mean, mean);
+    const Real spare = was > common ? Real(was - common) : Real(0);
+    const Real factor = is > common ? square_root(Real(spare / (is - common))) : Real(1);
+    for (std::size_t b = 0; b < graph.balls(); ++b) {
+      graph.set_velocity(b, mean + factor * (graph.velocity(b) - mean));
+    }
+  }
 
   // alpha = -sqrt(5) ln e / sqrt(ln^2 e + pi^2), the closed form of Tsuji's curve.
   [[nodiscard]] static Real tsuji_damping(const Real& restitution) {
