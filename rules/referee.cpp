@@ -131,8 +131,9 @@ Expected<void> check_ready(const GameState& ready, const Call& call, const physi
 }
 
 Ruling ruling_of(Verdict verdict) {
-  std::stable_sort(verdict.fouls.begin(), verdict.fouls.end(),
-                   [](const FoulRecord& p, const FoulRecord& q) { return p.code < q.code; });
+  // A shot has a foul of each code at most once.
+  std::sort(verdict.fouls.begin(), verdict.fouls.end(),
+            [](const FoulRecord& p, const FoulRecord& q) { return p.code < q.code; });
   Ruling ruling;
   ruling.legal = verdict.fouls.empty();
   ruling.fouls = std::move(verdict.fouls);
