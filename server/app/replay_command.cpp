@@ -31,9 +31,6 @@ struct ReplayArguments {
 template <class T>
 using Outcome = tl::expected<T, std::string>;
 
-std::string reason(const storage::StorageError& error) {
-  return error.reason;
-}
 std::string reason(const protocol::Error& error) {
   return error.field + ": " + error.reason;
 }
