@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 
+#include "physics/lean.hpp"
 #include "physics/motion.hpp"
 #include "physics/roots.hpp"
 
@@ -212,13 +213,14 @@ template <class Real>
 }
 
 // The first contact in [0, T].
-template <class Real>
+template <class Policy = Lean, class Real>
 [[nodiscard]] std::optional<Real> first_contact(const PairMotion<Real>& p, const Real& T) {
+  constexpr bool rejects = Policy::omits(Omission::clear_pairs);
   const GapPolynomial<Real> c = gap_polynomial(p);
   if (!(c.c1 < Real(0))) {
-    return never_approaches(c, T) ? std::nullopt : search_contact(p, c, T);
+    return rejects && never_approaches(c, T) ? std::nullopt : search_contact(p, c, T);
   }
-  if (stays_apart(c, T)) {
+  if (rejects && stays_apart(c, T)) {
     return std::nullopt;
   }
   return c.c0 > Real(0) && is_convex(c, T) ? convex_contact(p, c, T) : search_contact(p, c, T);

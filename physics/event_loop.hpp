@@ -109,6 +109,8 @@ class EventLoop {
   template <class Watch>
   [[nodiscard]] Go meet(std::size_t i, std::size_t k, Watch& watch);
   template <class Watch>
+  [[nodiscard]] Go meet_alone(std::size_t i, std::size_t k, Watch& watch);
+  template <class Watch>
   [[nodiscard]] Go meet_together(std::size_t i, std::size_t k, Watch& watch);
   template <class Watch>
   [[nodiscard]] Go tell(Watch& watch, EventType type, const Ball<Exact>& after,

@@ -167,6 +167,9 @@ Go EventLoop<Real, Policy>::meet_together(std::size_t i, std::size_t k, Watch& w
     }
   }
   cluster_.gather(balls, present_, i, k, contact_);
+  if (cluster_.contacts() == 1) {
+    return meet_alone(i, k, watch);
+  }
   cluster_.resolve(balls, materials_.ball_friction, contact_);
   for (std::size_t j = 0; j < count_; ++j) {
     after += kinetic_energy(balls[j], c_);
@@ -199,6 +202,12 @@ Go EventLoop<Real, Policy>::meet(std::size_t i, std::size_t k, Watch& watch) {
       (!Policy::omits(Omission::far_neighbours) || is_crowded(i, k))) {
     return meet_together(i, k, watch);
   }
+  return meet_alone(i, k, watch);
+}
+
+template <class Real, class Policy>
+template <class Watch>
+Go EventLoop<Real, Policy>::meet_alone(std::size_t i, std::size_t k, Watch& watch) {
   Ball<Exact> first = ball_now(i);
   Ball<Exact> second = ball_now(k);
   const Exact before = kinetic_energy(first, c_) + kinetic_energy(second, c_);

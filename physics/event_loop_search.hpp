@@ -192,10 +192,8 @@ template <class Real, class Policy>
 void EventLoop<Real, Policy>::look_for_contact(std::size_t i, std::size_t k) {
   const Body& one = bodies_[i];
   const Body& other = bodies_[k];
-  const bool clip = Policy::omits(Omission::late_contacts);
-  const Instant<Real>& one_until = clip ? one.next.at : one.own.at;
-  const Instant<Real>& other_until = clip ? other.next.at : other.own.at;
-  const Instant<Real>& until = one_until < other_until ? one_until : other_until;
+  // What happens first to either ball ends its motion: beyond it there is nothing to look for.
+  const Instant<Real>& until = one.next.at < other.next.at ? one.next.at : other.next.at;
   const PairMotion<Real> pair = pair_motion(one.motion, other.motion, now_, reach_squared_);
   const std::optional<Real> t = first_contact<Policy>(pair, Real(until - now_), solver_);
   if (!t) {

@@ -14,7 +14,6 @@ enum class Omission : std::uint8_t {
   pairs_at_rest,   // no contact is looked for between two balls that do not move
   far_pairs,       // nor between balls whose paths' bounding boxes stay apart
   clear_pairs,     // nor searched where the Bernstein ordinates of the gap exclude it
-  late_contacts,   // nor beyond what happens first to either ball
   far_rails,       // rails, mouths and jaws that the path's bounding box does not reach
   ball_friction,   // the friction between balls where its coefficient is 0
   far_neighbours,  // the search for a cluster where no third ball is near

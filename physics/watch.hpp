@@ -64,8 +64,9 @@ struct WillBePocketed {
 enum class Hop : std::uint8_t { no, yes };
 
 // Writes the event log. More than three hops in a row of one ball on one rail, or of one pair,
-// become one entry: `count` hops from `t` to `until`, `after` as at `until`. Transitions do not
-// break a row, another collision of a ball does.
+// become one entry: `count` hops from `t` to `until`, `after` as at `until`. Whatever else happens
+// to a ball, a transition too, ends its row, so that nothing is logged of it between `t` and
+// `until`.
 template <class Real>
 class Recorder {
  public:
@@ -74,10 +75,6 @@ class Recorder {
   [[nodiscard]] Go see(const Sighting&) const { return Go::on; }
 
   void record(const Event<Real>& event, Hop hop) {
-    if (event.type == EventType::transition) {
-      events_.push_back(event);
-      return;
-    }
     Row& row = rows_[number(event.after[0].id)];
     if (hop == Hop::no) {
       forget(event);
