@@ -1,6 +1,7 @@
 // `poolhall serve`: the tournament server.
 #include <CLI/CLI.hpp>
 
+#include <spdlog/pattern_formatter.h>
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
@@ -34,12 +35,32 @@ int fail(const std::string& reason, int code) {
   return code;
 }
 
+// The message as the inside of a JSON string.
+class JsonText : public spdlog::custom_flag_formatter {
+ public:
+  void format(const spdlog::details::log_msg& message, const std::tm&,
+              spdlog::memory_buf_t& out) override {
+    for (const char c : message.payload) {
+      if (c == '"' || c == '\\') {
+        out.push_back('\\');
+      }
+      out.push_back(c >= 0 && c < ' ' ? ' ' : c);
+    }
+  }
+  [[nodiscard]] std::unique_ptr<custom_flag_formatter> clone() const override {
+    return std::make_unique<JsonText>();
+  }
+};
+
 // One line an event; JSON for machines. Nothing that is logged contains a token.
 void set_up_log(const settings::LogSettings& log) {
   spdlog::set_default_logger(spdlog::stderr_color_mt("poolhall"));
   spdlog::set_level(spdlog::level::from_str(log.level == "warning" ? "warn" : log.level));
   if (log.json) {
-    spdlog::set_pattern(R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z","level":"%l","message":"%v"})");
+    auto formatter = std::make_unique<spdlog::pattern_formatter>();
+    formatter->add_flag<JsonText>('*').set_pattern(
+        R"({"time":"%Y-%m-%dT%H:%M:%S.%e%z","level":"%l","message":"%*"})");
+    spdlog::set_formatter(std::move(formatter));
   } else {
     spdlog::set_pattern("%Y-%m-%d %H:%M:%S.%e %^%l%$ %v");
   }

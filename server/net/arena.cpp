@@ -54,7 +54,11 @@ Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
                      return house_agent(name, player);
                    }),
       challenges_(services_, matches_,
-                  {[this](const std::string& bot) { return house_opponent(bot); }}),
+                  {[this](const std::string& bot) { return house_opponent(bot); },
+                   [this](storage::AgentId agent) {
+                     const auto own = games_of_.find(agent);
+                     return own == games_of_.end() ? 0 : own->second.size();
+                   }}),
       finished_(services_, [this](const storage::MatchRecord& match) {
         return match.tournament ? tournaments_.wire_id(*match.tournament) : std::nullopt;
       }) {}

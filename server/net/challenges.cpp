@@ -19,6 +19,7 @@ constexpr std::string_view house_prefix = "house:";
 // How long the answer to a challenge is remembered for who asks again.
 constexpr std::chrono::minutes memory{10};
 constexpr std::chrono::hours longest_clock{24};
+constexpr std::size_t games_bound = 256;  // of one agent at a time
 constexpr std::size_t offers_bound = 64;  // of one agent that wait for an answer
 
 std::string request_key(storage::AgentId from, const protocol::ShotId& id) {
@@ -41,6 +42,11 @@ void Challenges::challenge(const Asker& asker, storage::AgentId from,
   const auto terms = terms_of_request(request);
   if (!terms) {
     asker.refuse(terms.error());
+    return;
+  }
+  if (outside_.games_of(from) >= games_bound) {
+    asker.refuse(
+        {ErrorCode::rate_limited, "", fmt::format("{} of your games go on already", games_bound)});
     return;
   }
   const auto opponent = opponent_of(from, request.opponent);

@@ -23,6 +23,8 @@ class Challenges {
     // The house's agent to play a bot of that name, made known if need be; nothing if there is no
     // such bot.
     std::function<std::optional<storage::AgentId>(const std::string& bot)> house_agent;
+    // How many games of this agent go on.
+    std::function<std::size_t(storage::AgentId agent)> games_of;
   };
 
   Challenges(GameServices& services, Matches& matches, Outside outside);

@@ -2,6 +2,7 @@
 
 #include <netinet/tcp.h>
 
+#include <algorithm>
 #include <array>
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/buffer.hpp>
@@ -25,6 +26,9 @@ constexpr auto awaited = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t lines_in_one_write = 64;
 // How long an ended connection may take to read its last line.
 constexpr std::chrono::seconds linger{2};
+// A peer that does not read closes its window, and its system answers the probes of it, at most
+// two minutes apart.
+constexpr std::chrono::seconds longest_probe_pause{150};
 
 }  // namespace
 
@@ -178,11 +182,51 @@ void Connection::schedule_flush() {
   asio::post(socket_.get_executor(), [self = shared_from_this()] { self->flush(); });
 }
 
+// TCP_USER_TIMEOUT ends a connection whose peer acknowledges nothing, dead or not: a bot that
+// thinks and does not read keeps its window closed and would be taken for dead. So it is suspended
+// while the peer's system answers.
+void Connection::watch_delivery() {
+  if (delivery_check_.is_set()) {
+    return;
+  }
+  const auto wait = context_.limits.tcp_user_timeout * 3 / 4;
+  delivery_check_ =
+      context_.deadlines.at(std::chrono::steady_clock::now() + wait, [weak = weak_from_this()] {
+        if (const auto self = weak.lock()) {
+          self->check_delivery();
+        }
+      });
+}
+
+void Connection::check_delivery() {
+  delivery_check_.cancel();
+  if (!socket_.is_open()) {
+    return;
+  }
+  const auto timeout = context_.limits.tcp_user_timeout;
+  const Delivery delivery = delivery_of(socket_);
+  const auto pause = delivery.since_last_acknowledgement;
+  if (delivery.unacknowledged_bytes == 0) {
+    if (std::exchange(patient_, false)) {
+      set_user_timeout(socket_, timeout);
+    }
+  } else if (patient_ && pause > longest_probe_pause) {
+    abort("the peer's system does not answer any more");
+  } else {
+    if (!patient_ && pause < timeout * 3 / 4) {
+      patient_ = true;
+      set_user_timeout(socket_, std::chrono::milliseconds{0});
+    }
+    watch_delivery();
+  }
+}
+
 void Connection::flush() {
   flush_pending_ = false;
   if (writing_ || !socket_.is_open()) {
     return;
   }
+  watch_delivery();
   if (write_some()) {
     finish_sending();
   } else if (socket_.is_open()) {
@@ -278,6 +322,7 @@ void Connection::close_socket() {
   state_ = State::closed;
   line_deadline_.cancel();
   linger_deadline_.cancel();
+  delivery_check_.cancel();
   boost::system::error_code error;
   socket_.close(error);
   out_.clear();

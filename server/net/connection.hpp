@@ -85,6 +85,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void take(std::string_view bytes, SteadyTime read_at);
   void watch_line();
   void schedule_flush();
+  void watch_delivery();
+  void check_delivery();
   void flush();
   // What the socket takes now; false when it is full or broken.
   [[nodiscard]] bool write_some();
@@ -102,12 +104,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
   protocol::LineSplitter splitter_;
   Deadline line_deadline_;
   Deadline linger_deadline_;
+  Deadline delivery_check_;
   std::deque<Line> out_;
   std::size_t out_offset_ = 0;  // bytes of out_.front() that the socket has taken
   std::size_t queued_bytes_ = 0;
   State state_ = State::open;
   bool flush_pending_ = false;
   bool writing_ = false;  // write_loop runs
+  bool patient_ = false;  // the peer reads nothing and its system says that it lives
   std::function<void()> on_gone_;
 };
 

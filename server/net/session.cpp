@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -17,6 +18,13 @@ namespace {
 constexpr std::size_t held_lines = 32;
 // Requests refused for coming too fast, in a row, after which the connection is a flood.
 constexpr std::uint32_t flood = 1'000;
+
+// A log is read on terminals: nothing of a stranger's gets there but visible ASCII.
+std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c < ' ' || c > '~' || c == '"'; }, '?');
+  return text;
+}
 
 Line line_of(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
@@ -213,7 +221,7 @@ void Session::greet(const protocol::RequestId& id, const protocol::Hello& hello)
   }
   stage_ = Stage::greeted;
   detail_ = hello.detail;
-  client_ = hello.client ? hello.client->name + " " + hello.client->version : hello.name;
+  client_ = printable(hello.client ? hello.client->name + " " + hello.client->version : hello.name);
   reply(id, lobby_.greeting(*this));
 }
 

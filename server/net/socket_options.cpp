@@ -1,7 +1,9 @@
 #include "server/net/socket_options.hpp"
 
+#include <linux/sockios.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
+#include <sys/ioctl.h>
 #include <sys/resource.h>
 #include <sys/socket.h>
 
@@ -31,7 +33,27 @@ void set_agent_options(boost::asio::ip::tcp::socket& socket,
   set(descriptor, IPPROTO_TCP, TCP_KEEPIDLE, keep_alive_idle_s);
   set(descriptor, IPPROTO_TCP, TCP_KEEPINTVL, keep_alive_interval_s);
   set(descriptor, IPPROTO_TCP, TCP_KEEPCNT, keep_alive_probes);
-  set(descriptor, IPPROTO_TCP, TCP_USER_TIMEOUT, static_cast<int>(unacknowledged.count()));
+  set_user_timeout(socket, unacknowledged);
+}
+
+void set_user_timeout(boost::asio::ip::tcp::socket& socket,
+                      std::chrono::milliseconds unacknowledged) {
+  set(socket.native_handle(), IPPROTO_TCP, TCP_USER_TIMEOUT,
+      static_cast<int>(unacknowledged.count()));
+}
+
+Delivery delivery_of(boost::asio::ip::tcp::socket& socket) {
+  Delivery delivery;
+  int bytes = 0;
+  if (::ioctl(socket.native_handle(), SIOCOUTQ, &bytes) == 0 && bytes > 0) {
+    delivery.unacknowledged_bytes = static_cast<std::size_t>(bytes);
+  }
+  tcp_info info{};
+  socklen_t size = sizeof info;
+  if (::getsockopt(socket.native_handle(), IPPROTO_TCP, TCP_INFO, &info, &size) == 0) {
+    delivery.since_last_acknowledgement = std::chrono::milliseconds{info.tcpi_last_ack_recv};
+  }
+  return delivery;
 }
 
 std::string peer_name(const boost::asio::ip::tcp::socket& socket) {

@@ -11,6 +11,16 @@ namespace poolhall::net {
 void set_agent_options(boost::asio::ip::tcp::socket& socket,
                        std::chrono::milliseconds unacknowledged);
 
+// What the peer's system has not acknowledged, and when it last acknowledged anything.
+struct Delivery {
+  std::size_t unacknowledged_bytes = 0;
+  std::chrono::milliseconds since_last_acknowledgement{0};
+};
+[[nodiscard]] Delivery delivery_of(boost::asio::ip::tcp::socket& socket);
+// 0: the connection does not end for want of acknowledgements.
+void set_user_timeout(boost::asio::ip::tcp::socket& socket,
+                      std::chrono::milliseconds unacknowledged);
+
 // "127.0.0.1:40312", or "?" when the peer is gone already.
 [[nodiscard]] std::string peer_name(const boost::asio::ip::tcp::socket& socket);
 
