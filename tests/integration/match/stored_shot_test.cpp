@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <map>
+#include <sstream>
 
 #include "physics/simulator.hpp"
 #include "played_game.hpp"
@@ -126,7 +127,9 @@ TEST(StoredShot, has_every_instant_in_its_row) {
       largest = std::max(largest, largest_error(row, played.game().board(), end * i / 39.5));
     return true;
   }));
-  RecordProperty("largest_error_m", std::to_string(largest));
+  std::ostringstream written;
+  written << largest;
+  RecordProperty("largest_error_m", written.str());
   EXPECT_GE(shots, 8);
   EXPECT_LT(largest, 1e-12) << instants << " instants";
 }
