@@ -14,30 +14,34 @@ struct Outcome {
   Finding why;
 };
 
-Outcome outcome(GameState next, const Clause& clause) {
-  return {std::move(next), finding(clause)};
+Outcome outcome(GameState next, const Clause& clause,
+                std::optional<std::size_t> event = std::nullopt) {
+  return {std::move(next), finding(clause, event)};
 }
 
 // The turn after a break by a legal stroke that pocketed the 8.
-Outcome after_eight(const GameState& after, Seat breaker, const FoulReport& report) {
+Outcome after_eight(const Shot& shot, const GameState& after, const FoulReport& report) {
+  const Seat breaker = shot.ready.to_move;
+  const std::optional<std::size_t> event = shot.facts.gone_event(the_eight);
   if (applies(clauses::break_eight_foul, !report.fouls.empty())) {
     return outcome(decision_for(after, other(breaker),
                                 {Decision::spot_eight, Decision::rerack_chooser_breaks}),
-                   clauses::break_eight_foul);
+                   clauses::break_eight_foul, event);
   }
   return outcome(
       decision_for(after, breaker, {Decision::spot_eight, Decision::rerack_breaker_breaks}),
-      clauses::break_eight_choice);
+      clauses::break_eight_choice, event);
 }
 
-Outcome after_foul(const GameState& after, Seat opponent) {
+Outcome after_foul(const Shot& shot, const GameState& after) {
+  const Seat opponent = other(shot.ready.to_move);
   if (!applies(clauses::break_scratch, !on_table(after, physics::cue_ball)) &&
       applies(clauses::break_foul_choice, true)) {
     return outcome(decision_for(after, opponent, {Decision::accept, Decision::accept_ball_in_hand}),
                    clauses::break_foul_choice);
   }
   return outcome(turn_for(after, opponent, TurnKind::ball_in_hand_behind_head_string),
-                 clauses::break_scratch);
+                 clauses::break_scratch, shot.facts.gone_event(physics::cue_ball));
 }
 
 Outcome after_break(const Shot& shot, const GameState& after, const FoulReport& report,
@@ -51,14 +55,14 @@ Outcome after_break(const Shot& shot, const GameState& after, const FoulReport& 
                    clauses::illegal_break_choice);
   }
   if (applies(clauses::break_eight_choice, shot.facts.is_pocketed(the_eight))) {
-    return after_eight(after, breaker, report);
+    return after_eight(shot, after, report);
   }
   if (!report.fouls.empty()) {
-    return after_foul(after, opponent);
+    return after_foul(shot, after);
   }
   const bool goes_on = applies(clauses::break_goes_on, shot.facts.object_ball_pocketed());
   return {turn_for(after, goes_on ? breaker : opponent, TurnKind::shot),
-          goes_on ? finding(clauses::break_goes_on)
+          goes_on ? finding(clauses::break_goes_on, shot.facts.first_object_ball_down())
                   : said(clauses::break_goes_on, "no ball was pocketed: the opponent shoots")};
 }
 
@@ -74,7 +78,7 @@ Verdict judge_break(const Shot& shot) {
   std::vector<Finding> notes = std::move(report.notes);
   if (applies(clauses::break_eight_off, shot.facts.is_off(the_eight))) {
     after = spotted(std::move(after), the_eight, shot.venue.table, shot.venue.materials);
-    notes.push_back(finding(clauses::break_eight_off));
+    notes.push_back(finding(clauses::break_eight_off, shot.facts.gone_event(the_eight)));
   }
   Outcome result = after_break(shot, after, report, illegal);
   notes.push_back(std::move(result.why));

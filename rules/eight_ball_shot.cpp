@@ -62,25 +62,10 @@ std::vector<LossClause> losses(const Shot& shot, const FoulReport& report) {
   return found;
 }
 
-// The event in which the 8 left the table.
-std::optional<std::size_t> eight_event(const ShotFacts& facts) {
-  for (const PocketedBall& down : facts.pocketed) {
-    if (down.ball == the_eight) {
-      return down.event;
-    }
-  }
-  for (const BallEvent& off : facts.driven_off) {
-    if (off.ball == the_eight) {
-      return off.event;
-    }
-  }
-  return std::nullopt;
-}
-
 // The end of the game, if the 8 decided it.
 std::optional<Verdict> judge_eight(const Shot& shot, const FoulReport& report) {
   const Seat shooter = shot.ready.to_move;
-  const std::optional<std::size_t> event = eight_event(shot.facts);
+  const std::optional<std::size_t> event = shot.facts.gone_event(the_eight);
   const std::vector<LossClause> lost = losses(shot, report);
   Verdict verdict{report.fouls, report.notes, report.first_contact, shot.after};
   if (!lost.empty()) {

@@ -153,7 +153,7 @@ Verdict after_legal_shot(const Shot& shot, Verdict verdict) {
   }
   const bool goes_on = applies(clauses::keeps_turn, shot.facts.object_ball_pocketed());
   verdict.notes.push_back(
-      goes_on ? finding(clauses::keeps_turn)
+      goes_on ? finding(clauses::keeps_turn, shot.facts.first_object_ball_down())
               : said(clauses::keeps_turn, "no ball was pocketed: the opponent shoots"));
   verdict.next =
       turn_for(std::move(verdict.next), goes_on ? shooter : other(shooter), TurnKind::shot);
@@ -179,14 +179,14 @@ Verdict judge(const Shot& shot) {
   const bool push_out = shot.call.kind == Call::Kind::push_out;
   const bool nine_down = shot.facts.is_pocketed(the_nine);
   if (verdict.fouls.empty() && !push_out && applies(clauses::nine_wins, nine_down)) {
-    verdict.notes.push_back(finding(clauses::nine_wins));
+    verdict.notes.push_back(finding(clauses::nine_wins, shot.facts.gone_event(the_nine)));
     verdict.next = game_over(std::move(verdict.next), {shooter, EndReason::nine_pocketed});
     return verdict;
   }
   if (applies(clauses::nine_spotted, nine_down || shot.facts.is_off(the_nine))) {
     verdict.next =
         spotted(std::move(verdict.next), the_nine, shot.venue.table, shot.venue.materials);
-    verdict.notes.push_back(finding(clauses::nine_spotted));
+    verdict.notes.push_back(finding(clauses::nine_spotted, shot.facts.gone_event(the_nine)));
   }
   return verdict.fouls.empty() ? after_legal_shot(shot, std::move(verdict))
                                : after_foul(std::move(verdict), shooter);

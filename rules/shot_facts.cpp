@@ -111,9 +111,25 @@ bool ShotFacts::is_pocketed_in(BallId ball, PocketId pocket) const {
   });
 }
 
-bool ShotFacts::object_ball_pocketed() const {
-  return std::any_of(pocketed.begin(), pocketed.end(),
-                     [](const PocketedBall& down) { return down.ball != physics::cue_ball; });
+std::optional<std::size_t> ShotFacts::first_object_ball_down() const {
+  const auto found = std::find_if(pocketed.begin(), pocketed.end(), [](const PocketedBall& down) {
+    return down.ball != physics::cue_ball;
+  });
+  return found == pocketed.end() ? std::nullopt : std::optional{found->event};
+}
+
+std::optional<std::size_t> ShotFacts::gone_event(BallId ball) const {
+  for (const PocketedBall& down : pocketed) {
+    if (down.ball == ball) {
+      return down.event;
+    }
+  }
+  for (const BallEvent& off : driven_off) {
+    if (off.ball == ball) {
+      return off.event;
+    }
+  }
+  return std::nullopt;
 }
 
 std::size_t ShotFacts::object_balls_driven_to_rail() const {

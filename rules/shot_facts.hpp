@@ -6,6 +6,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "physics/event_log.hpp"
@@ -34,7 +35,11 @@ struct ShotFacts {
   [[nodiscard]] bool is_pocketed_in(BallId ball, PocketId pocket) const;
   // On the table no more.
   [[nodiscard]] bool is_gone(BallId ball) const { return is_pocketed(ball) || is_off(ball); }
-  [[nodiscard]] bool object_ball_pocketed() const;
+  [[nodiscard]] bool object_ball_pocketed() const { return first_object_ball_down().has_value(); }
+  // The event in which the first object ball was pocketed.
+  [[nodiscard]] std::optional<std::size_t> first_object_ball_down() const;
+  // The event in which `ball` was pocketed or left the table.
+  [[nodiscard]] std::optional<std::size_t> gone_event(BallId ball) const;
   [[nodiscard]] std::size_t object_balls_driven_to_rail() const;  // each counts once
 };
 
