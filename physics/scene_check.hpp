@@ -203,13 +203,15 @@ Expected<void> check_scene(const Scene<Real>& scene) {
       return check::refuse(Fault::out_of_range, check::ball_field(i, "id"),
                            "expected 0 to 15, got " + std::to_string(number(ball.id)));
     }
-    if (auto fine = check::ball_state(ball, i, radius); !fine) {
-      return fine;
-    }
     if (ball.state != MotionState::pocketed) {
       if (auto fine = check::ball_numbers(ball, i, scene.materials.ball_radius); !fine) {
         return fine;
       }
+    }
+    if (auto fine = check::ball_state(ball, i, radius); !fine) {
+      return fine;
+    }
+    if (ball.state != MotionState::pocketed) {
       if (auto fine = has_jaws ? check::place_among_jaws(ball, i, jaws)
                                : check::ball_place(ball, i, bounds);
           !fine) {
