@@ -33,8 +33,21 @@ JsonValue list(const std::vector<JsonValue>& items) {
   return JsonValue{JsonArray(items)};
 }
 
+// The kind of a turn that is not named, from where the ball is in hand.
+JsonValue kind_of(const JsonValue& state) {
+  const JsonValue* in_hand = state.member("ball_in_hand");
+  const std::string* place = in_hand == nullptr ? nullptr : in_hand->as<std::string>();
+  if (place != nullptr && *place == "anywhere") {
+    return JsonValue{std::string("ball_in_hand")};
+  }
+  if (place != nullptr && *place == "behind_head_string") {
+    return JsonValue{std::string("ball_in_hand_behind_head_string")};
+  }
+  return JsonValue{std::string("shot")};
+}
+
 // What a state may leave out, with what is meant then.
-JsonObject state_defaults() {
+JsonObject state_defaults(const JsonValue& state) {
   const JsonValue none{};
   const JsonObject settings{{"breaker", whole(0)},
                             {"rack_seed", whole(0)},
@@ -42,7 +55,7 @@ JsonObject state_defaults() {
                             {"rack_jitter", JsonValue{0.0}}};
   return {{"rules", JsonValue{std::string("8-ball")}},
           {"turn", whole(1)},
-          {"kind", JsonValue{std::string("shot")}},
+          {"kind", kind_of(state)},
           {"to_move", whole(0)},
           {"groups", list({none, none})},
           {"fouls_in_a_row", list({whole(0), whole(0)})},
@@ -57,11 +70,12 @@ JsonObject state_defaults() {
 }
 
 JsonValue with_defaults(JsonValue state) {
+  JsonObject defaults = state_defaults(state);
   auto* members = std::get_if<JsonObject>(&state.data);
   if (members == nullptr) {
     return state;
   }
-  for (auto& [key, value] : state_defaults()) {
+  for (auto& [key, value] : defaults) {
     const auto found = std::find_if(members->begin(), members->end(),
                                     [&key](const auto& member) { return member.first == key; });
     if (found == members->end()) {

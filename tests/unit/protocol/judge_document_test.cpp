@@ -87,6 +87,15 @@ TEST(JudgeDocument, TakesThePlaceOfACueBallInHandFromTheLog) {
   EXPECT_EQ(part(*log, "ruling"), part(*shot, "ruling"));
 }
 
+TEST(JudgeDocument, KnowsTheKindOfTurnFromWhereTheBallIsInHand) {
+  const auto in_hand = [](const std::string& where) {
+    return field(R"({"state":{"ball_in_hand":")" + where + R"(","balls":)" + balls() +
+                 R"(},"call":"safety","cue_ball":{"x":0.3,"y":0.7},)" + soft_shot + "}");
+  };
+  EXPECT_EQ(in_hand("anywhere"), "accepted");
+  EXPECT_EQ(in_hand("behind_head_string"), "/cue_ball/y");
+}
+
 TEST(JudgeDocument, NamesTheFieldOfWhatIsWrong) {
   const std::string shot = std::string("\"call\":\"safety\",") + soft_shot;
   EXPECT_EQ(field("{"), "");
