@@ -243,6 +243,11 @@ Agent& Arena::house_agent(const std::string& name, const HousePlayer& player) {
         name);
   }
   bots_.employ(book_, *agent, player);
+  // A game that went on when the server stopped may have waited for its player to be known.
+  const auto own = games_of_.find(agent->id());
+  if (own != games_of_.end() && !own->second.empty()) {
+    bots_.need(agent->id());
+  }
   return *agent;
 }
 
