@@ -1,0 +1,78 @@
+// `poolhall judge` as a program: what it prints, where, and with which exit code.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <utility>
+
+#include <sys/wait.h>
+
+#include "protocol/json_value.hpp"
+#include "tests/support/temporary_directory.hpp"
+
+namespace poolhall {
+namespace {
+
+struct Ran {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+std::string read(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Runs it with that document, of the fuzzer's corpus, as its standard input.
+Ran judge(const std::string& document, const std::string& arguments = "-") {
+  const test_support::TemporaryDirectory folder;
+  const std::string out = (folder.path() / "out").string();
+  const std::string err = (folder.path() / "err").string();
+  const std::string in = std::string(POOLHALL_SOURCE_DIR) + "/tests/fuzz/corpus/judge/" + document;
+  const int status = std::system((std::string(POOLHALL_PROGRAM) + " judge " + arguments + " < " +
+                                  in + " > " + out + " 2> " + err)
+                                     .c_str());
+  return {WEXITSTATUS(status), read(out), read(err)};
+}
+
+TEST(JudgeCommand, PrintsTheRulingAndTheNextState) {
+  for (const char* document : {"shot", "events", "summary", "nine", "push_out", "off_table"}) {
+    const Ran ran = judge(document);
+    EXPECT_EQ(ran.exit_code, 0) << document << ran.err;
+    EXPECT_EQ(ran.err, "") << document;
+    const auto answer = protocol::parse_json(ran.out, {16, 1'000'000});
+    ASSERT_TRUE(answer) << document;
+    EXPECT_NE(answer->member("ruling"), nullptr) << document;
+    EXPECT_NE(answer->member("state"), nullptr) << document;
+    EXPECT_EQ(std::count(ran.out.begin(), ran.out.end(), '\n'), 1) << document;
+  }
+}
+
+TEST(JudgeCommand, NamesTheFieldOfWrongInputInOneLine) {
+  const std::pair<const char*, const char*> wrong[] = {
+      {"17_balls", "-: /state/balls: "},         {"two_cue_balls", "-: /state/balls/1/id: "},
+      {"overlap", "-: /state/balls/2/x: "},      {"down", "-: /call/ball: "},
+      {"other_state", "-: /events/1/balls/1: "}, {"groups_unfit", "-: /state/groups: "},
+      {"impossible_stroke", "-: /shot/theta: "}, {"unknown_key", "-: /x: "}};
+  for (const auto& [document, start] : wrong) {
+    const Ran ran = judge(document);
+    EXPECT_EQ(ran.exit_code, 2) << document;
+    EXPECT_EQ(ran.out, "") << document;
+    EXPECT_TRUE(ran.err.starts_with(start)) << document << ": " << ran.err;
+    EXPECT_EQ(std::count(ran.err.begin(), ran.err.end(), '\n'), 1) << document;
+  }
+}
+
+TEST(JudgeCommand, NamesAFileThatCannotBeRead) {
+  const Ran ran = judge("shot", "/no/such/file.json");
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_TRUE(ran.err.starts_with("/no/such/file.json: ")) << ran.err;
+}
+
+}  // namespace
+}  // namespace poolhall
