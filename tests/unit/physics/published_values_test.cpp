@@ -1,0 +1,157 @@
+// Figures that others have published and that a shot simulated here must show.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "physics/contact_cluster.hpp"
+#include "physics/motion.hpp"
+#include "physics/simulator.hpp"
+
+namespace poolhall::physics {
+namespace {
+
+constexpr double degree = std::numbers::pi / 180;
+
+// A cue ball with velocity along +y meets a resting ball at a cut angle (degrees).
+Scene<double> cut_shot(double cut, const Materials& materials, double speed, double roll) {
+  Scene<double> scene;
+  scene.table = *preset_table("olympiad");
+  scene.materials = materials;
+  const double radius = materials.ball_radius;
+  scene.balls.count = 2;
+  scene.balls[0].id = cue_ball;
+  scene.balls[0].position = {0.5, 0.8};
+  scene.balls[0].velocity = {0, speed};
+  scene.balls[0].angular_velocity = {-roll * speed / radius, 0, 0};
+  scene.balls[0] = settled(scene.balls[0], radius);
+  scene.balls[1].id = BallId{1};
+  const double reach = 2 * radius;
+  scene.balls[1].position = {0.5 + reach * std::sin(cut * degree),
+                             0.8 + reach * std::cos(cut * degree)};
+  return scene;
+}
+
+Materials without_ball_friction() {
+  Materials m = *preset_materials("olympiad");
+  m.ball_friction = ConstantFriction{0};
+  return m;
+}
+
+// Degrees between the cue ball's first heading and that when it rolls again after the hit.
+double deflection(double cut) {
+  const auto result = simulate(cut_shot(cut, without_ball_friction(), 0.6, 1), {});
+  EXPECT_TRUE(result);
+  for (const auto& event : result->events) {
+    if (event.type == EventType::transition && event.after[0].id == cue_ball) {
+      const Vec2<double> v = event.after[0].velocity;
+      return std::atan2(std::abs(v.x), v.y) / degree;
+    }
+  }
+  return 0;
+}
+
+TEST(PublishedValues, RollingCueBallIsDeflectedByAtMost33Point7Degrees) {
+  // Alciatore, "30 degree rule", TP 3.3: 33.749 degrees at most, 33.67 for the half-ball hit.
+  double most = 0;
+  for (double cut = 1; cut < 89; cut += 0.25) {
+    most = std::max(most, deflection(cut));
+  }
+  EXPECT_NEAR(most, 33.749, 2e-3);
+  EXPECT_NEAR(deflection(30), 33.67, 0.01);
+}
+
+TEST(PublishedValues, RollingCueBallGoesOffNear30DegreesForQuarterToThreeQuarterBallHits) {
+  // Between a 1/4-ball and a 3/4-ball hit: cut angles of 48.6 to 14.5 degrees.
+  for (double cut = 14.5; cut <= 48.6; cut += 1) {
+    EXPECT_GT(deflection(cut), 26) << cut;
+    EXPECT_LT(deflection(cut), 34) << cut;
+  }
+}
+
+TEST(PublishedValues, StunnedCueBallLeavesAtRightAnglesToTheObjectBall) {
+  for (double cut = 5; cut < 85; cut += 5) {
+    const auto result = simulate(cut_shot(cut, without_ball_friction(), 2, 0), {});
+    ASSERT_TRUE(result);
+    const auto& hit = result->events.front();
+    ASSERT_EQ(hit.type, EventType::ball_collision);
+    EXPECT_NEAR(dot(hit.after[0].velocity, hit.after[1].velocity), 0, 1e-13);
+  }
+}
+
+// Alciatore TP A.14: throw of the object ball, radians, for speed v, cut angle and the cue ball's
+// roll (1 follow, 0 stun, -1 draw) without side spin.
+double alciatore_throw(double v, double cut, double roll) {
+  const double across = v * std::sin(cut);
+  const double along = v * std::cos(cut);
+  const double slip = std::hypot(across, roll * v * std::cos(cut));
+  const double mu = 9.951e-3 + 0.108 * std::exp(-1.088 * slip);
+  return std::atan(std::min(mu * along / slip, 1.0 / 7) * across / along);
+}
+
+TEST(PublishedValues, ThrowAgainstCutAngleIsAlciatores) {
+  Materials m = without_ball_friction();
+  m.ball_friction = AlciatoreFriction{};
+  for (const double roll : {0.0, 1.0, -1.0}) {
+    for (const double speed : {0.447, 1.341, 3.129}) {  // 1, 3 and 7 mph
+      for (double cut = 5; cut <= 85; cut += 5) {
+        const auto result = simulate(cut_shot(cut, m, speed, roll), {});
+        ASSERT_TRUE(result);
+        const Vec2<double> v = result->events.front().after[1].velocity;
+        const double found = cut * degree - std::atan2(v.x, v.y);
+        EXPECT_NEAR(found, alciatore_throw(speed, cut * degree, roll), 1e-12)
+            << speed << " m/s, " << cut << " degrees, roll " << roll;
+      }
+    }
+  }
+}
+
+// Velocities right after a cue ball meets a rack with this gap head-on at 8 m/s.
+ContactCluster<double>::Balls broken_rack(double gap, ContactModel model) {
+  const Materials m = *preset_materials("modern");
+  const auto c = coefficients<double>(m);
+  ContactCluster<double>::Balls balls{};
+  const double pitch = c.diameter + gap;
+  std::size_t n = 1;
+  for (int row = 0; row < 5; ++row) {
+    for (int i = 0; i <= row; ++i, ++n) {
+      balls[n].id = BallId{static_cast<std::uint8_t>(n)};
+      balls[n].position = {pitch * (i - row / 2.0), pitch * row * std::numbers::sqrt3 / 2};
+    }
+  }
+  balls[0].position = {0.002, -std::sqrt(c.reach_squared - 4e-6)};
+  balls[0].velocity = {0, 8};
+  ContactCluster<double> cluster(c);
+  cluster.gather(balls, 0xffff, 0, 1, model);
+  cluster.resolve(balls, m.ball_friction, model);
+  return balls;
+}
+
+double rms_difference(const ContactCluster<double>::Balls& p,
+                      const ContactCluster<double>::Balls& q) {
+  double sum = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    const Vec2<double> d = p[i].velocity - q[i].velocity;
+    sum += dot(d, d);
+  }
+  return std::sqrt(sum / static_cast<double>(p.size()));
+}
+
+TEST(Racks, ComeApartAlikeForAllGapsBelowTheThreshold) {
+  const auto touching = broken_rack(0, ContactModel::cluster);
+  EXPECT_LT(rms_difference(touching, broken_rack(1e-12, ContactModel::cluster)), 1e-9);
+  for (const double gap : {1e-9, 1e-7, 1e-5, 1e-4}) {
+    EXPECT_LT(rms_difference(touching, broken_rack(gap, ContactModel::cluster)), 1e3 * gap) << gap;
+  }
+}
+
+TEST(Racks, ComeApartAsOverElasticSprings) {
+  for (const double gap : {0.0, 1e-4}) {
+    const double off = rms_difference(broken_rack(gap, ContactModel::cluster),
+                                      broken_rack(gap, ContactModel::hertz));
+    EXPECT_LT(off / 8, 0.15) << gap;
+  }
+}
+
+}  // namespace
+}  // namespace poolhall::physics
