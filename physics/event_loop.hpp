@@ -1,7 +1,8 @@
 // The event loop: finds the next event, lets it happen, and again. A workspace that is made once
 // for a table and materials and then runs any number of shots without touching the heap.
 //
-//   EventLoop<double> loop(table, materials);
+//   EventLoop<double> loop(table, materials);           // fast: all in double
+//   EventLoop<double, Precise> loop(table, materials);  // as `simulate`: see lean.hpp
 //   Unwatched none;
 //   Ending ending = loop.run(balls, shot, options, none);
 //   loop.balls();  // where they lie
@@ -44,7 +45,7 @@ class EventLoop {
   [[nodiscard]] std::uint32_t events() const { return events_; }
 
  private:
-  using Exact = Wide<Real>;
+  using Exact = typename Policy::template State<Real>;
 
   // What a ball does next, in the order in which simultaneous events happen.
   enum class Next : std::uint8_t { transition, pocket, rail, contact, nothing };

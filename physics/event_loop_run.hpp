@@ -10,7 +10,11 @@ typename EventLoop<Real, Policy>::Exact EventLoop<Real, Policy>::elapsed(std::si
 }
 
 template <class Real, class Policy>
-Ball<Wide<Real>> EventLoop<Real, Policy>::ball_now(std::size_t i) const {
+Ball<typename EventLoop<Real, Policy>::Exact> EventLoop<Real, Policy>::ball_now(
+    std::size_t i) const {
+  if (bodies_[i].exact.state == MotionState::stationary) {
+    return resting(bodies_[i].id, bodies_[i].exact.position);
+  }
   return ball_at(bodies_[i].exact, bodies_[i].id, elapsed(i), c_);
 }
 
@@ -210,10 +214,10 @@ template <class Watch>
 Go EventLoop<Real, Policy>::meet_alone(std::size_t i, std::size_t k, Watch& watch) {
   Ball<Exact> first = ball_now(i);
   Ball<Exact> second = ball_now(k);
-  const Exact before = kinetic_energy(first, c_) + kinetic_energy(second, c_);
   const Impact<Exact> impact = strike_together<Policy>(first, second, c_, materials_.ball_friction);
   if (impact.raised) {
-    account(before, kinetic_energy(first, c_) + kinetic_energy(second, c_));
+    account(kinetic_energy(ball_now(i), c_) + kinetic_energy(ball_now(k), c_),
+            kinetic_energy(first, c_) + kinetic_energy(second, c_));
   }
   begin_motion(i, first);
   begin_motion(k, second);

@@ -111,6 +111,8 @@ void EventLoop<Real, Policy>::find_own_event(std::size_t i) {
   if (hit.kind == HitKind::none) {
     body.hit.t = body.exact.duration;
     body.hit.kind = HitKind::none;
+  } else if constexpr (std::is_same_v<Exact, Real>) {
+    body.hit = hit;
   } else {
     body.hit = hit.surface == Surface::line ? refined_hit(exact_boundary_, hit, body.exact)
                                             : exact_jaws_.refined_hit(hit, body.exact);

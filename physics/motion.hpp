@@ -197,6 +197,14 @@ template <class Real>
   return ball;
 }
 
+template <class Real>
+[[nodiscard]] Ball<Real> resting(BallId id, const Vec2<Real>& position) {
+  Ball<Real> ball;
+  ball.id = id;
+  ball.position = position;
+  return ball;
+}
+
 // The ball when its segment's duration is over: v and w from the exact rolling condition when a
 // slide ends, exact zeros at rest. The slide takes 2/7 of the slip from the velocity, (12) and (8).
 template <class Real>

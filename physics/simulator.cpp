@@ -5,6 +5,7 @@
 namespace poolhall::physics {
 
 template class EventLoop<double>;
+template class EventLoop<double, Precise>;
 template class EventLoop<long double>;
 
 template Expected<void> check_scene(const Scene<double>&);

@@ -13,7 +13,7 @@ Expected<Simulation<Real>> simulate(const Scene<Real>& scene, const SimulationOp
   if (auto fine = check_scene(scene); !fine) {
     return tl::unexpected(fine.error());
   }
-  EventLoop<Real> loop(scene.table, scene.materials);
+  EventLoop<Real, Precise> loop(scene.table, scene.materials);
   Recorder<Real> recorder;
   Simulation<Real> result;
   result.ending = loop.run(scene.balls, scene.shot, options, recorder);

@@ -68,6 +68,10 @@ template <class Real>
   using std::abs;
   using std::sqrt;
   const Real square = dot(p, p);
+  // The squares of doubles are far inside the range of an 80-bit number, and of wider ones.
+  if constexpr (std::numeric_limits<Real>::min_exponent < -8 * 1024) {
+    return sqrt(square);
+  }
   if (square > std::numeric_limits<Real>::min() / std::numeric_limits<Real>::epsilon() &&
       square < std::numeric_limits<Real>::max()) {
     return sqrt(square);

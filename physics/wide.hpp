@@ -1,8 +1,8 @@
-// The number type in which a simulation keeps its balls. Contacts are looked for in Real; what is
-// found is refined, and balls move and collide, in Wide<Real>: for double the 80-bit long double
-// of x86, whose eleven more bits keep a shot of many collisions exact to the last digits of a
-// double at the cost of a few nanoseconds an event. Where long double is no wider (or is made of
-// software, as binary128 is) double stays double.
+// The number type in which a precise simulation (lean.hpp) keeps its balls. Contacts are looked for
+// in Real; what is found is refined, and balls move and collide, in Wide<Real>: for double the
+// 80-bit long double of x86, whose eleven more bits keep a shot of many collisions exact to the
+// last digits of a double at the cost of some eighty nanoseconds an event. Where long double is no
+// wider (or is made of software, as binary128 is) double stays double.
 #pragma once
 
 #include <limits>
