@@ -112,6 +112,26 @@ TEST(CheckScene, AShotNeedsACueBall) {
   EXPECT_EQ(refusal(scene).field, "/shot");
 }
 
+TEST(Simulate, RefusesATimeLimitThatIsNoTime) {
+  for (const double t : {-1.0, std::numeric_limits<double>::quiet_NaN(), 1e300}) {
+    const auto result = simulate(scene_with(), {.t_max = t});
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().field, "/t_max");
+  }
+}
+
+TEST(Simulate, StopsAtItsTimeLimitWithTheBallsAsTheyAreThen) {
+  Scene<double> scene = scene_with();
+  scene.balls[0].velocity = {0, 1};
+  scene.balls[0].state = MotionState::sliding;
+  const auto result = simulate(scene, {.t_max = 0.05});
+  ASSERT_TRUE(result);
+  EXPECT_EQ(result->ending, Ending::t_max);
+  EXPECT_NEAR(result->balls[0].position.y, 0.5 + 0.05 - 0.1 * 9.81 * 0.0025, 1e-15);
+  EXPECT_EQ(result->balls[0].state, MotionState::sliding);
+  EXPECT_EQ(result->duration, 0);
+}
+
 TEST(CheckScene, NamesWhatIsWrongWithAShot) {
   Scene<double> scene = scene_with();
   scene.shot = cue_shot_from_degrees(40.0, 0.0, 10.0, 90.0, 2.0);
