@@ -57,6 +57,10 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   add_benchmark(*command, exit_code, "rules",
                 "100,000 random games of both rule sets, and what must hold of every game",
                 bench::bench_rules);
+  add_benchmark(*command, exit_code, "stability",
+                "extreme scenes, expected against found, and random shots and breaks",
+                bench::bench_stability);
+  add_benchmark(*command, exit_code, "lean", "what each omission saves", bench::bench_lean);
   const BenchCommand speed =
       add_benchmark(*command, exit_code, "speed",
                     "microseconds a shot, and against the paper's own scheme", bench::bench_speed);

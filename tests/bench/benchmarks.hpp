@@ -22,6 +22,12 @@ struct BenchOptions {
 // Error against run time: every method against the 100-digit reference.
 bool bench_precision(const BenchOptions& options, std::ostream& out);
 
+// Extreme scenes, expected against found, and random shots and breaks.
+bool bench_stability(const BenchOptions& options, std::ostream& out);
+
+// What each omission saves.
+bool bench_lean(const BenchOptions& options, std::ostream& out);
+
 // Microseconds a shot, alone and as a ratio to the paper's own scheme; or of the
 // scenes in a file. Throws std::runtime_error that names the file and line of what cannot be read.
 bool bench_speed(const BenchOptions& options, std::ostream& out);

@@ -55,7 +55,7 @@ void compare_balls(const physics::BallSet<Real>& balls, const ReferenceSimulatio
   }
 }
 
-template <class Real>
+template <class Real, class Policy>
 Measured run_event_method(physics::RootSolver solver, const RandomShot& shot,
                           const ReferenceSimulation& truth) {
   const physics::Scene<Real> scene = scene_in<Real>(shot);
@@ -63,19 +63,20 @@ Measured run_event_method(physics::RootSolver solver, const RandomShot& shot,
   options.contact = physics::ContactModel::sequential;
   options.solver = solver;
   Measured measured;
-  physics::EventLoop<Real> loop(scene.table, scene.materials);
+  physics::EventLoop<Real, Policy> loop(scene.table, scene.materials);
   measured.microseconds = least_microseconds([&] {
     physics::Unwatched none;
     static_cast<void>(loop.run(scene.balls, scene.shot, options, none));
   });
-  const auto result = physics::simulate(scene, options);
-  if (!result) {
-    return measured;
-  }
-  const Difference d = difference(*result, truth);
+  physics::Recorder<Real> recorder;
+  static_cast<void>(loop.run(scene.balls, scene.shot, options, recorder));
+  physics::Simulation<Real> result;
+  result.events = recorder.take();
+  result.balls = loop.balls();
+  const Difference d = difference(result, truth);
   measured.same_sequence = d.sequence.same;
   measured.time_error = d.sequence.time_error;
-  compare_balls(result->balls, truth, measured);
+  compare_balls(result.balls, truth, measured);
   return measured;
 }
 
@@ -104,13 +105,13 @@ void compare_stepped(const SteppedShot& run, const ReferenceSimulation& truth, M
   compare_balls(run.balls, truth, measured);
 }
 
-template <class Real>
+template <class Real, class Policy = physics::Lean>
 void add_event_method(std::vector<Method>& methods, const std::string& precision,
                       physics::RootSolver solver) {
   const std::string family = "event method, " + std::string(physics::name(solver));
   methods.push_back({family, family + ", " + precision,
                      [solver](const RandomShot& shot, const ReferenceSimulation& truth) {
-                       return run_event_method<Real>(solver, shot, truth);
+                       return run_event_method<Real, Policy>(solver, shot, truth);
                      }});
 }
 
@@ -134,6 +135,7 @@ std::vector<Method> event_methods() {
   for (const auto solver :
        {physics::RootSolver::bracketed, physics::RootSolver::closed_form_polished,
         physics::RootSolver::closed_form}) {
+    add_event_method<double, physics::Precise>(methods, "double, balls kept wider", solver);
     add_event_method<double>(methods, "double", solver);
     add_event_method<long double>(methods, "long double", solver);
   }

@@ -28,7 +28,8 @@ struct Method {
       run;
 };
 
-// The event method in double and long double with each root solver.
+// The event method with each root solver: in double as `simulate` plays it (balls kept in wider
+// numbers), in double throughout as `evaluate` does, and in long double. The first is the default.
 [[nodiscard]] std::vector<Method> event_methods();
 // The paper's discrete scheme, Euler, Verlet, Runge-Kutta at five steps each, Dormand-Prince at
 // five tolerances.
