@@ -125,7 +125,8 @@ void add_bot_command(CLI::App& app, int& exit_code) {
                    "environment, where ps does not show it")
       ->envname("POOLHALL_TOKEN");
   command->add_option("--name", arguments->name, "The agent's name when it registers");
-  command->add_option("--seed", arguments->seed, "The same seed plays the same game");
+  // The server gives one and an entry's own options may give another: the last one counts.
+  command->add_option("--seed", arguments->seed, "The same seed plays the same game")->take_last();
   command
       ->add_option("--effort", arguments->effort,
                    "Simulated events that a shot of greedy may cost, about")
