@@ -27,7 +27,7 @@ namespace poolhall::client {
 enum class OfferPolicy : std::uint8_t { accept, decline };
 
 struct AgentSettings {
-  std::string name{};                         // registered under it if the token is not known yet
+  std::string name{};                       // registered under it if the token is not known yet
   std::optional<protocol::Hex256> token{};  // unset: one is made
   protocol::ClientInfo software{"poolhall-cpp", "1"};
   protocol::EventDetail detail = protocol::EventDetail::summary;
