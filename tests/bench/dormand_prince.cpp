@@ -6,7 +6,6 @@
 
 #include "physics/ball_collision.hpp"
 #include "physics/coefficients.hpp"
-#include "physics/cue_strike.hpp"
 #include "physics/cushion.hpp"
 #include "physics/motion.hpp"
 #include "physics/table_geometry.hpp"
@@ -42,16 +41,7 @@ class Integration {
         c_(physics::coefficients<double>(scene.materials)),
         geometry_(physics::table_geometry<double>(scene.table, scene.materials.ball_radius)),
         nose_(physics::nose_angle<double>(scene.table, scene.materials)),
-        balls_(scene.balls) {
-    for (Ball<double>& ball : balls_) {
-      if (scene.shot && ball.id == physics::cue_ball) {
-        ball = physics::strike(ball, *scene.shot, scene.materials);
-      }
-      if (ball.state != MotionState::pocketed) {
-        ball = physics::settled(ball, c_.radius);
-      }
-    }
-  }
+        balls_(balls_after_strike(scene)) {}
 
   SteppedShot run(double longest) {
     double t = 0;

@@ -1,7 +1,4 @@
 // What each omission saves, with the same result bit for bit.
-#include <algorithm>
-#include <chrono>
-#include <cmath>
 #include <cstring>
 #include <ostream>
 
@@ -9,6 +6,7 @@
 #include "physics/watch.hpp"
 #include "tests/bench/benchmarks.hpp"
 #include "tests/bench/report.hpp"
+#include "tests/bench/timing.hpp"
 #include "tests/support/random_shots.hpp"
 
 namespace poolhall::bench {
@@ -54,14 +52,11 @@ struct Timed {
 
 template <class Loop, class Watch>
 Timed timed(Loop& loop, const physics::Scene<double>& scene, Watch watch) {
-  Timed best{INFINITY, {}};
-  for (int i = 0; i < 7; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
+  Timed best;
+  best.microseconds = least_microseconds(7, [&] {
     Watch fresh = watch;
     static_cast<void>(loop.run(scene.balls, scene.shot, {}, fresh));
-    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
-    best.microseconds = std::min(best.microseconds, took.count());
-  }
+  });
   best.balls = loop.balls();
   return best;
 }

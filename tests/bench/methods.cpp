@@ -1,7 +1,6 @@
 #include "tests/bench/methods.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "physics/event_loop.hpp"
@@ -10,6 +9,7 @@
 #include "tests/bench/dormand_prince.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/bench/time_stepping.hpp"
+#include "tests/bench/timing.hpp"
 
 namespace poolhall::bench {
 
@@ -18,18 +18,6 @@ namespace {
 using physics::reference::Number;
 using physics::reference::ReferenceSimulation;
 using test_support::RandomShot;
-
-template <class Run>
-double least_microseconds(const Run& run) {
-  double least = INFINITY;
-  for (int i = 0; i < 3; ++i) {
-    const auto begin = std::chrono::steady_clock::now();
-    run();
-    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
-    least = std::min(least, took.count());
-  }
-  return least;
-}
 
 template <class Real>
 physics::Scene<Real> scene_in(const RandomShot& shot) {
@@ -64,7 +52,7 @@ Measured run_event_method(physics::RootSolver solver, const RandomShot& shot,
   options.solver = solver;
   Measured measured;
   physics::EventLoop<Real, Policy> loop(scene.table, scene.materials);
-  measured.microseconds = least_microseconds([&] {
+  measured.microseconds = least_microseconds(3, [&] {
     physics::Unwatched none;
     static_cast<void>(loop.run(scene.balls, scene.shot, options, none));
   });
@@ -122,7 +110,7 @@ Method stepping_method(const std::string& family, const std::string& step, const
             const physics::Scene<double> scene = scene_in<double>(shot);
             Measured measured;
             SteppedShot result;
-            measured.microseconds = least_microseconds([&] { result = run(scene); });
+            measured.microseconds = least_microseconds(3, [&] { result = run(scene); });
             compare_stepped(result, truth, measured);
             return measured;
           }};

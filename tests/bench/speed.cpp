@@ -1,9 +1,7 @@
 // Microseconds a shot, alone and against the paper's own scheme.
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <fstream>
-#include <functional>
 #include <ostream>
 #include <stdexcept>
 #include <string>
@@ -15,6 +13,7 @@
 #include "tests/bench/benchmarks.hpp"
 #include "tests/bench/paper_scheme.hpp"
 #include "tests/bench/report.hpp"
+#include "tests/bench/timing.hpp"
 #include "tests/support/random_shots.hpp"
 
 namespace poolhall::bench {
@@ -22,22 +21,6 @@ namespace poolhall::bench {
 namespace {
 
 using test_support::RandomShot;
-
-double microseconds_of(const std::function<void()>& run) {
-  const auto begin = std::chrono::steady_clock::now();
-  run();
-  const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - begin;
-  return took.count();
-}
-
-// The least of some runs: what the machine does beside is not the shot's.
-double least_microseconds(int runs, const std::function<void()>& run) {
-  double least = INFINITY;
-  for (int i = 0; i < runs; ++i) {
-    least = std::min(least, microseconds_of(run));
-  }
-  return least;
-}
 
 struct SpeedClass {
   std::string name;

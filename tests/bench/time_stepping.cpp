@@ -37,15 +37,7 @@ class Stepping {
         c_(physics::coefficients<double>(scene.materials)),
         geometry_(physics::table_geometry<double>(scene.table, scene.materials.ball_radius)),
         nose_(physics::nose_angle<double>(scene.table, scene.materials)) {
-    out_.balls = scene.balls;
-    for (Ball<double>& ball : out_.balls) {
-      if (scene.shot && ball.id == physics::cue_ball) {
-        ball = physics::strike(ball, *scene.shot, scene.materials);
-      }
-      if (ball.state != MotionState::pocketed) {
-        ball = physics::settled(ball, c_.radius);
-      }
-    }
+    out_.balls = balls_after_strike(scene);
   }
 
   SteppedShot run(double longest) {
@@ -329,6 +321,19 @@ const char* name(Stepper stepper) {
       return "Runge-Kutta 4";
   }
   return "";
+}
+
+physics::BallSet<double> balls_after_strike(const physics::Scene<double>& scene) {
+  physics::BallSet<double> balls = scene.balls;
+  for (Ball<double>& ball : balls) {
+    if (scene.shot && ball.id == physics::cue_ball) {
+      ball = physics::strike(ball, *scene.shot, scene.materials);
+    }
+    if (ball.state != MotionState::pocketed) {
+      ball = physics::settled(ball, scene.materials.ball_radius);
+    }
+  }
+  return balls;
 }
 
 SteppedShot step_through(const physics::Scene<double>& scene, Stepper stepper, double step,

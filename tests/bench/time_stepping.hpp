@@ -36,6 +36,9 @@ struct SteppedShot {
   bool ended = true;           // false: still moving after `longest` seconds
 };
 
+// The balls of the scene right after its shot, each in the state that its velocities imply.
+[[nodiscard]] physics::BallSet<double> balls_after_strike(const physics::Scene<double>& scene);
+
 // `scene` must be possible; `step` in s.
 [[nodiscard]] SteppedShot step_through(const physics::Scene<double>& scene, Stepper stepper,
                                        double step, double longest = 60);
