@@ -7,6 +7,7 @@ void add_commands(CLI::App& app, int& exit_code) {
   add_bot_command(app, exit_code);
   add_export_command(app, exit_code);
   add_judge_command(app, exit_code);
+  add_load_command(app, exit_code);
   add_replay_command(app, exit_code);
   add_serve_command(app, exit_code);
   add_simulate_command(app, exit_code);

@@ -1,23 +1,12 @@
 // What `poolhall judge` is given, fuzzed.
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 
 #include "protocol/json_node.hpp"
 #include "protocol/judge_document.hpp"
+#include "tests/fuzz/protocol/demand.hpp"
 #include "tests/fuzz/protocol/protocol_targets.hpp"
 
 namespace poolhall::fuzz {
-namespace {
-
-void demand(bool holds, const char* what) {
-  if (!holds) {
-    std::fprintf(stderr, "does not hold: %s\n", what);
-    std::abort();
-  }
-}
-
-}  // namespace
 
 void judge(std::string_view input) {
   const auto answer = protocol::judge_document(input);

@@ -1,29 +1,22 @@
 #include "tests/fuzz/protocol/protocol_targets.hpp"
 
-#include <cstdio>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
 #include "protocol/codec.hpp"
 #include "protocol/events_json.hpp"
 #include "protocol/framing.hpp"
+#include "protocol/json_node.hpp"
 #include "protocol/json_value.hpp"
 #include "protocol/scene_json.hpp"
 #include "protocol/state_json.hpp"
 #include "protocol/table_json.hpp"
+#include "tests/fuzz/protocol/demand.hpp"
 
 namespace poolhall::fuzz {
 namespace {
 
 using namespace protocol;
-
-void demand(bool holds, const char* what) {
-  if (!holds) {
-    std::fprintf(stderr, "does not hold: %s\n", what);
-    std::abort();
-  }
-}
 
 void demand_one_line(const std::string& line) {
   demand(!line.empty() && line.find('\n') == line.size() - 1, "one line with its end");
@@ -76,6 +69,21 @@ void request(std::string_view input) {
   const auto again = decode_request(std::string_view(line).substr(0, line.size() - 1), limits);
   demand(again.has_value(), "a request that was encoded can be decoded");
   demand(encode_request(1, again->request) == line, "it is the same request");
+}
+
+void json(std::string_view input) {
+  const Expected<JsonValue> line = parse_json(input, json_bounds(Limits{}));
+  const Expected<JsonValue> document = parse_json(input, document_bounds);
+  demand(!line || document, "what fits the bounds of a line fits those of a document");
+  if (!document) {
+    demand(!document.error().reason.empty(), "an error has a reason");
+    return;
+  }
+  const std::string text = canonical_text(*document);
+  demand(text.find('\n') == std::string::npos, "canonical text is one line");
+  const Expected<JsonValue> again = parse_json(text, document_bounds);
+  demand(again.has_value(), "canonical text is JSON");
+  demand(canonical_text(*again) == text, "canonical text reads back as itself");
 }
 
 void framing(std::string_view input) {

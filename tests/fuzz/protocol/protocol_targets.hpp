@@ -10,6 +10,7 @@
 namespace poolhall::fuzz {
 
 void request(std::string_view input);         // an agent's line
+void json(std::string_view input);            // any JSON text
 void framing(std::string_view input);         // two bytes of settings, then a stream
 void server_message(std::string_view input);  // a byte for the method, then a server's line
 void scene(std::string_view input);           // a scene file
@@ -20,11 +21,10 @@ struct Target {
   std::string_view name;  // also of its corpus' folder
   void (*run)(std::string_view);
 };
-inline constexpr std::array targets{Target{"request", request},
-                                    Target{"framing", framing},
-                                    Target{"server_message", server_message},
-                                    Target{"scene", scene},
-                                    Target{"record", record},
-                                    Target{"judge", judge}};
+inline constexpr std::array targets{
+    Target{"request", request}, Target{"json", json},
+    Target{"framing", framing}, Target{"server_message", server_message},
+    Target{"scene", scene},     Target{"record", record},
+    Target{"judge", judge}};
 
 }  // namespace poolhall::fuzz
