@@ -2,7 +2,7 @@
 // for a table and materials and then runs any number of shots without touching the heap.
 //
 //   EventLoop<double> loop(table, materials);           // fast: all in double
-//   EventLoop<double, Precise> loop(table, materials);  // as `simulate`: see lean.hpp
+//   EventLoop<double, Precise> loop(table, materials);  // see lean.hpp
 //   Unwatched none;
 //   Ending ending = loop.run(balls, shot, options, none);
 //   loop.balls();  // where they lie
@@ -21,6 +21,7 @@
 #include "physics/contact_cluster.hpp"
 #include "physics/contact_search.hpp"
 #include "physics/cushion.hpp"
+#include "physics/drift.hpp"
 #include "physics/energy.hpp"
 #include "physics/jaws.hpp"
 #include "physics/lean.hpp"
@@ -43,6 +44,10 @@ class EventLoop {
   [[nodiscard]] const EnergyAccount<Real>& energy() const { return energy_; }
   [[nodiscard]] Real duration() const { return last_.high; }
   [[nodiscard]] std::uint32_t events() const { return events_; }
+  // Whether the last run ended, with Ending::stopped, since rounding may have carried a ball
+  // further than `drift_bound`; of a policy that stops in doubt.
+  [[nodiscard]] bool is_doubtful() const { return doubtful_; }
+  static constexpr double drift_bound = 1e-11;  // m
 
  private:
   using Exact = typename Policy::template State<Real>;
@@ -94,6 +99,11 @@ class EventLoop {
   [[nodiscard]] bool is_crowded(std::size_t i, std::size_t k) const;
   [[nodiscard]] Hop hop(const Exact& closing) const;
   void account(const Exact& before, const Exact& after);
+  void carry_drift(std::size_t i);
+  void drift_off(std::size_t i, Surface surface, const Ball<Exact>& before,
+                 const Ball<Exact>& after, const Exact& closing);
+  void drift_together(std::size_t i, std::size_t k, const Ball<Exact>& first,
+                      const Ball<Exact>& second);
   [[nodiscard]] Real energy_now() const;
   void finish(const Instant<Real>& at);
 
@@ -147,9 +157,14 @@ class EventLoop {
   BallSet<Real> balls_{};
   EnergyAccount<Real> energy_{};
   Exact added_{};
+  std::array<Drift<Real>, max_balls> drift_{};
+  Real extent_;             // m, the largest coordinate
+  Real cushion_roughness_;  // square of the roundings that an impact on a cushion is worth
+  bool doubtful_ = false;
 };
 
 }  // namespace poolhall::physics
 
+#include "physics/event_loop_drift.hpp"
 #include "physics/event_loop_run.hpp"
 #include "physics/event_loop_search.hpp"

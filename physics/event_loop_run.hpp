@@ -77,6 +77,9 @@ Go EventLoop<Real, Policy>::strike_cue_ball(const CueShot<Real>& shot, Watch& wa
     const Ball<Exact> after =
         settled(strike(converted<Exact>(balls_[i]), stroke, materials_), c_.radius);
     begin_motion(i, after);
+    if constexpr (Policy::stops_in_doubt) {
+      drift_[i] = drift_[i].disturbed(dot(after.velocity, after.velocity));
+    }
     ++events_;
     return tell(watch, EventType::cue_strike, after);
   }
@@ -87,6 +90,10 @@ template <class Real, class Policy>
 template <class Watch>
 Go EventLoop<Real, Policy>::transition(std::size_t i, Watch& watch) {
   const Ball<Exact> after = after_transition(bodies_[i].exact, bodies_[i].id, c_);
+  if constexpr (Policy::stops_in_doubt) {
+    carry_drift(i);
+    drift_[i] = drift_[i].disturbed(dot(after.velocity, after.velocity));
+  }
   begin_motion(i, after);
   refresh(only(i));
   return tell(watch, EventType::transition, after);
@@ -131,6 +138,9 @@ Go EventLoop<Real, Policy>::bounce(std::size_t i, Watch& watch) {
     account(kinetic_energy(before, c_), kinetic_energy(after, c_));
   }
   settle(after, c_.radius);
+  if constexpr (Policy::stops_in_doubt) {
+    drift_off(i, hit.surface, before, after, closing);
+  }
   begin_motion(i, after);
   refresh(only(i));
   return tell(watch, EventType::rail_collision, after, &hit, hop(closing));
@@ -174,6 +184,10 @@ Go EventLoop<Real, Policy>::meet_together(std::size_t i, std::size_t k, Watch& w
   if (cluster_.contacts() == 1) {
     return meet_alone(i, k, watch);
   }
+  if constexpr (Policy::stops_in_doubt) {
+    doubtful_ = true;
+    return Go::stop;
+  }
   cluster_.resolve(balls, materials_.ball_friction, contact_);
   for (std::size_t j = 0; j < count_; ++j) {
     after += kinetic_energy(balls[j], c_);
@@ -214,6 +228,9 @@ template <class Watch>
 Go EventLoop<Real, Policy>::meet_alone(std::size_t i, std::size_t k, Watch& watch) {
   Ball<Exact> first = ball_now(i);
   Ball<Exact> second = ball_now(k);
+  if constexpr (Policy::stops_in_doubt) {
+    drift_together(i, k, first, second);
+  }
   const Impact<Exact> impact = strike_together<Policy>(first, second, c_, materials_.ball_friction);
   if (impact.raised) {
     account(kinetic_energy(ball_now(i), c_) + kinetic_energy(ball_now(k), c_),
@@ -265,6 +282,9 @@ void EventLoop<Real, Policy>::finish(const Instant<Real>& at) {
   energy_.added_by_separation = static_cast<Real>(added_);
   for (Indices left = present_; left != 0; left &= left - 1) {
     const auto i = static_cast<std::size_t>(std::countr_zero(left));
+    if constexpr (Policy::stops_in_doubt) {
+      carry_drift(i);
+    }
     if (bodies_[i].exact.state != MotionState::stationary) {
       balls_[i] = converted<Real>(ball_now(i));
     } else if ((touched_ & only(i)) != 0) {
@@ -293,7 +313,7 @@ Ending EventLoop<Real, Policy>::run(const BallSet<Real>& balls,
   const Instant<Real> end =
       options.t_max ? Instant<Real>{Real(*options.t_max), Real(0)} : never<Real>();
   Ending ending = Ending::at_rest;
-  while (go == Go::on && busy_ != 0) {
+  while (go == Go::on && busy_ != 0 && !doubtful_) {
     const std::size_t i = earliest();
     if (end < bodies_[i].next.at) {
       ending = Ending::t_max;
@@ -306,7 +326,7 @@ Ending EventLoop<Real, Policy>::run(const BallSet<Real>& balls,
     go = happen(i, watch);
   }
   finish(ending == Ending::t_max ? end : now_);
-  return go == Go::on ? ending : Ending::stopped;
+  return go == Go::on && !doubtful_ ? ending : Ending::stopped;
 }
 
 }  // namespace poolhall::physics

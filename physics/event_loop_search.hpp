@@ -13,7 +13,10 @@ EventLoop<Real, Policy>::EventLoop(const Table& table, const Materials& material
       exact_boundary_(boundary<Exact>(table, c_.radius)),
       has_jaws_(std::holds_alternative<Jaws>(table.pockets)),
       nose_(nose_angle<Exact>(table, materials)),
-      cluster_(c_) {
+      cluster_(c_),
+      extent_(static_cast<Real>(table.width > table.length ? table.width : table.length)),
+      // Mathavan's equations are integrated to about 1e-13.
+      cushion_roughness_(std::holds_alternative<Mathavan2010Cushion>(materials.cushion) ? 2e5 : 1) {
   if (has_jaws_) {
     jaws_ = JawTable<Real>(table, materials.ball_radius);
     exact_jaws_ = JawTable<Exact>(table, materials.ball_radius);
@@ -27,6 +30,8 @@ void EventLoop<Real, Policy>::place(const BallSet<Real>& balls) {
   now_ = last_ = {};
   events_ = 0;
   added_ = Exact(0);
+  drift_ = {};
+  doubtful_ = false;
   present_ = moving_ = busy_ = meeting_ = touched_ = 0;
   for (std::size_t i = 0; i < count_; ++i) {
     balls_[i] = balls[i];

@@ -4,7 +4,7 @@
 //
 //   EventLoop<double> loop(table, materials);                       // omits all it can
 //   EventLoop<double, LeanWithout<Omission::far_pairs>> slower(table, materials);
-//   EventLoop<double, Precise> precise(table, materials);           // what `simulate` uses
+//   EventLoop<double, Precise> precise(table, materials);           // balls kept in wider numbers
 #pragma once
 
 #include <cstdint>
@@ -27,6 +27,8 @@ struct Lean {
   // The number type in which balls are kept, move and collide.
   template <class Real>
   using State = Real;
+  // Whether the run stops, `doubtful`, when rounding may have carried a ball too far (drift.hpp).
+  static constexpr bool stops_in_doubt = false;
 };
 
 template <Omission needed>
@@ -34,8 +36,13 @@ struct LeanWithout : Lean {
   static constexpr bool omits(Omission omission) { return omission != needed; }
 };
 
-// The shot that counts: the same omissions, with balls kept in wider numbers (wide.hpp). What
-// `simulate` uses; nearly twice the time of Lean for shots of a few balls.
+// The same, and it knows when double is not enough.
+struct Guarded : Lean {
+  static constexpr bool stops_in_doubt = true;
+};
+
+// The same omissions, with balls kept in wider numbers (wide.hpp): nearly twice the time of Lean
+// for shots of a few balls.
 struct Precise : Lean {
   template <class Real>
   using State = Wide<Real>;

@@ -4,15 +4,21 @@
 //
 //   Direction<double> d = direction_of_degrees(30.0);   // d.sine == 0.5
 //
-// The implementations are in math_double.hpp and math_generic.hpp.
+// The implementations are in math_double.hpp, math_extended.hpp and math_generic.hpp.
 #pragma once
 
 #include <type_traits>
 
 #include "physics/math_double.hpp"
+#include "physics/math_extended.hpp"
 #include "physics/math_generic.hpp"
 
 namespace poolhall::physics {
+
+// Whether `Real` is the 80-bit number that has polynomials of its own.
+template <class Real>
+inline constexpr bool is_extended =
+    std::is_same_v<Real, long double>&& extended_precision::is_available;
 
 // pi, to the last bit of the type.
 template <class Real>
@@ -27,6 +33,8 @@ template <class Real>
   const ReducedDegrees<Real> reduced = reduced_degrees(degrees);
   if constexpr (std::is_same_v<Real, double>) {
     return turned(double_precision::small_angle(reduced.remainder), reduced);
+  } else if constexpr (is_extended<Real>) {
+    return turned(extended_precision::small_angle(reduced.remainder), reduced);
   } else {
     return turned(generic_precision::small_angle(reduced.remainder), reduced);
   }
@@ -36,6 +44,8 @@ template <class Real>
 [[nodiscard]] Real exponential(const Real& x) {
   if constexpr (std::is_same_v<Real, double>) {
     return double_precision::exponential(x);
+  } else if constexpr (is_extended<Real>) {
+    return extended_precision::exponential(x);
   } else {
     return generic_precision::exponential(x);
   }

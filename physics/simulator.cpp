@@ -5,6 +5,7 @@
 namespace poolhall::physics {
 
 template class EventLoop<double>;
+template class EventLoop<double, Guarded>;
 template class EventLoop<double, Precise>;
 template class EventLoop<long double>;
 

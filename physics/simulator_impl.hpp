@@ -2,7 +2,7 @@
 // and long double; tests and tools that need other types include this header.
 #pragma once
 
-#include "physics/event_loop.hpp"
+#include "physics/adaptive_loop.hpp"
 #include "physics/scene_check.hpp"
 #include "physics/simulator.hpp"
 
@@ -17,7 +17,7 @@ Expected<Simulation<Real>> simulate(const Scene<Real>& scene, const SimulationOp
     return check::refuse(Fault::out_of_range, "/t_max",
                          "expected 0 to 1e9 seconds, got " + std::to_string(*options.t_max));
   }
-  EventLoop<Real, Precise> loop(scene.table, scene.materials);
+  AdaptiveLoop<Real> loop(scene.table, scene.materials);
   Recorder<Real> recorder;
   Simulation<Real> result;
   result.ending = loop.run(scene.balls, scene.shot, options, recorder);

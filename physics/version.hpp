@@ -8,6 +8,6 @@
 
 namespace poolhall::physics {
 
-inline constexpr std::string_view version = "physics-1";
+inline constexpr std::string_view version = "physics-2";
 
 }  // namespace poolhall::physics

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "physics/event_loop.hpp"
+#include "physics/adaptive_loop.hpp"
 #include "physics/watch.hpp"
 #include "protocol/scene_json.hpp"
 #include "tests/bench/dormand_prince.hpp"
@@ -43,7 +43,7 @@ void compare_balls(const physics::BallSet<Real>& balls, const ReferenceSimulatio
   }
 }
 
-template <class Real, class Policy>
+template <class Real, class Loop>
 Measured run_event_method(physics::RootSolver solver, const RandomShot& shot,
                           const ReferenceSimulation& truth) {
   const physics::Scene<Real> scene = scene_in<Real>(shot);
@@ -51,7 +51,7 @@ Measured run_event_method(physics::RootSolver solver, const RandomShot& shot,
   options.contact = physics::ContactModel::sequential;
   options.solver = solver;
   Measured measured;
-  physics::EventLoop<Real, Policy> loop(scene.table, scene.materials);
+  Loop loop(scene.table, scene.materials);
   measured.microseconds = least_microseconds(3, [&] {
     physics::Unwatched none;
     static_cast<void>(loop.run(scene.balls, scene.shot, options, none));
@@ -93,13 +93,13 @@ void compare_stepped(const SteppedShot& run, const ReferenceSimulation& truth, M
   compare_balls(run.balls, truth, measured);
 }
 
-template <class Real, class Policy = physics::Lean>
+template <class Real, class Loop = physics::EventLoop<Real>>
 void add_event_method(std::vector<Method>& methods, const std::string& precision,
                       physics::RootSolver solver) {
   const std::string family = "event method, " + std::string(physics::name(solver));
   methods.push_back({family, family + ", " + precision,
                      [solver](const RandomShot& shot, const ReferenceSimulation& truth) {
-                       return run_event_method<Real, Policy>(solver, shot, truth);
+                       return run_event_method<Real, Loop>(solver, shot, truth);
                      }});
 }
 
@@ -123,7 +123,9 @@ std::vector<Method> event_methods() {
   for (const auto solver :
        {physics::RootSolver::bracketed, physics::RootSolver::closed_form_polished,
         physics::RootSolver::closed_form}) {
-    add_event_method<double, physics::Precise>(methods, "double, balls kept wider", solver);
+    add_event_method<double, physics::AdaptiveLoop<double>>(methods, "as simulate", solver);
+    add_event_method<double, physics::EventLoop<double, physics::Precise>>(
+        methods, "double, balls kept wider", solver);
     add_event_method<double>(methods, "double", solver);
     add_event_method<long double>(methods, "long double", solver);
   }

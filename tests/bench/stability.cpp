@@ -4,8 +4,8 @@
 #include <cmath>
 #include <ostream>
 
+#include "physics/adaptive_loop.hpp"
 #include "physics/energy.hpp"
-#include "physics/event_loop.hpp"
 #include "physics/watch.hpp"
 #include "tests/bench/benchmarks.hpp"
 #include "tests/bench/report.hpp"
@@ -100,7 +100,7 @@ class Playback {
 void play(const RandomShot& shot, Watched& seen) {
   const physics::Scene<double> scene = test_support::scene_of(shot);
   const auto c = physics::coefficients<double>(shot.materials);
-  physics::EventLoop<double, physics::Precise> loop(scene.table, scene.materials);
+  physics::AdaptiveLoop<double> loop(scene.table, scene.materials);
   physics::Recorder<double> recorder;
   const physics::Ending ending = loop.run(scene.balls, scene.shot, {}, recorder);
   ++seen.shots;

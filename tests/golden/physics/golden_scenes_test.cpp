@@ -95,9 +95,9 @@ constexpr Golden golden[] = {
     {"sequential break", "olympiad", "olympiad", ContactModel::sequential, RootSolver::bracketed,
      0xd3c9c727f4437968},
     {"modern break among jaws", "bar7", "modern", ContactModel::cluster, RootSolver::bracketed,
-     0x59814de7c88eddf9},
+     0x4010e7b46e0a59f6},
     {"hertz break", "wpa9", "modern", ContactModel::hertz, RootSolver::bracketed,
-     0x52de55e2ff8b36ca},
+     0x5c09b2b0921d10f3},
     {"closed form", "olympiad", "marlow", ContactModel::sequential,
      RootSolver::closed_form_polished, 0x5bf0f20ccc0f376b},
 };
