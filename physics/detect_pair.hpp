@@ -220,10 +220,14 @@ template <class Policy = Lean, class Real>
   if (!(c.c1 < Real(0))) {
     return rejects && never_approaches(c, T) ? std::nullopt : search_contact(p, c, T);
   }
+  if (c.c0 <= Real(0)) {
+    // Now, however soon the approach ends: the search might not tell that time from 0.
+    return Real(0);
+  }
   if (rejects && stays_apart(c, T)) {
     return std::nullopt;
   }
-  return c.c0 > Real(0) && is_convex(c, T) ? convex_contact(p, c, T) : search_contact(p, c, T);
+  return is_convex(c, T) ? convex_contact(p, c, T) : search_contact(p, c, T);
 }
 
 template <class Real>

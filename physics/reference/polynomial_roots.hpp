@@ -2,7 +2,7 @@
 // points, found in turn from the derivative's; nothing is pruned.
 //
 //   Polynomial gap{c0, c1, c2, c3, c4};                    // c0 + c1 t + ...
-//   std::vector<Number> t = falls(gap, end);                // in [0, end]
+//   for (const Fall& fall : falls(gap, end)) fall.t;        // in [0, end]
 #pragma once
 
 #include <vector>
@@ -20,8 +20,15 @@ using Polynomial = std::vector<Number>;
 // All roots in (0, end) at which the sign changes, ascending.
 [[nodiscard]] std::vector<Number> sign_changes(const Polynomial& p, const Number& end);
 
-// Every t in [0, end] at which p passes from above zero to below it, ascending; 0 is one of them if
-// p(0) <= 0 and p falls there. Touching zero from above without passing is no fall.
-[[nodiscard]] std::vector<Number> falls(const Polynomial& p, const Number& end);
+struct Fall {
+  Number t;
+  Number from;   // p falls all the way from here, where it has a maximum or time begins,
+  Number until;  // to here
+};
+
+// Every t in [0, end] at which p is zero or below and falls on: where it passes from above zero to
+// below it, or begins to fall when it is not above it. Ascending. Touching zero from above without
+// passing is no fall.
+[[nodiscard]] std::vector<Fall> falls(const Polynomial& p, const Number& end);
 
 }  // namespace poolhall::physics::reference

@@ -266,9 +266,9 @@ class Run {
     const Path q = path(k);
     const Polynomial gap =
         gap_to_circle(sum(p.x, q.x, -1), sum(p.y, q.y, -1), 2 * constants_.radius);
-    const std::vector<Number> contacts = falls(gap, end);
+    const std::vector<Fall> contacts = falls(gap, end);
     if (!contacts.empty()) {
-      slot = Prediction{now_ + contacts.front(), Kind::ball, {}, {}, {}};
+      slot = Prediction{now_ + contacts.front().t, Kind::ball, {}, {}, {}};
     }
   }
 
@@ -280,21 +280,21 @@ class Run {
       const Polynomial dx = sum(p.x, {arc.centre.x}, -1);
       const Polynomial dy = sum(p.y, {arc.centre.y}, -1);
       const Number reach = arc.radius + constants_.radius;
-      for (const Number& t : falls(gap_to_circle(dx, dy, reach), end)) {
+      for (const auto& [t, from, until] : falls(gap_to_circle(dx, dy, reach), end)) {
         const Vec2<Number> into{-value(dx, t) / reach, -value(dy, t) / reach};
         keep_earlier(own_[i], {now_ + t, Kind::rail, into, arc.rail, {}});
       }
     }
     for (const MouthLine& mouth : table_.mouths) {
       Polynomial gap = sum(sum({-mouth.offset}, p.x, mouth.inward.x), p.y, mouth.inward.y);
-      for (const Number& t : falls(gap, end)) {
+      for (const auto& [t, from, until] : falls(gap, end)) {
         keep_earlier(own_[i], {now_ + t, Kind::pocketed, {}, {}, mouth.pocket});
       }
     }
     for (const Hole& hole : table_.holes) {
       const Polynomial gap =
           gap_to_circle(sum(p.x, {hole.centre.x}, -1), sum(p.y, {hole.centre.y}, -1), hole.radius);
-      for (const Number& t : falls(gap, end)) {
+      for (const auto& [t, from, until] : falls(gap, end)) {
         keep_earlier(own_[i], {now_ + t, Kind::pocketed, {}, {}, hole.pocket});
       }
     }
@@ -305,7 +305,7 @@ class Run {
         sum(sum({-dot(nose.inward, nose.from) - constants_.radius}, p.x, nose.inward.x), p.y,
             nose.inward.y);
     const Vec2<Number> along = nose.to - nose.from;
-    for (const Number& t : falls(gap, end)) {
+    for (const auto& [t, from, until] : falls(gap, end)) {
       const Vec2<Number> at{value(p.x, t), value(p.y, t)};
       const Number foot = dot(at - nose.from, along);
       if (foot < 0 || foot > dot(along, along)) {
@@ -338,7 +338,7 @@ class Run {
     const Vec2<Number> into{-nose.inward.x, 0};
     const Prediction at_side = pocketed_at_side({now_, Kind::rail, into, nose.rail, {}});
     for (const Polynomial& gap : {sum({mouth.low}, p.y, -1), sum(p.y, {mouth.high}, -1)}) {
-      for (const Number& t : falls(gap, end)) {
+      for (const auto& [t, from, until] : falls(gap, end)) {
         Prediction entry = at_side;
         entry.t = now_ + t;
         const Number y = value(p.y, t);

@@ -220,13 +220,19 @@ void LogLogPlot::write_svg(const std::filesystem::path& file) const {
   out << "</svg>\n";
 }
 
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) {
-    return NAN;
-  }
+std::vector<double> quantiles(std::vector<double> values, const std::vector<double>& shares) {
   std::sort(values.begin(), values.end());
-  const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
-  return values[std::min(values.size() - 1, rank == 0 ? 0 : rank - 1)];
+  std::vector<double> found;
+  for (const double q : shares) {
+    const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(values.size())));
+    found.push_back(values.empty() ? NAN
+                                   : values[std::min(values.size() - 1, rank == 0 ? 0 : rank - 1)]);
+  }
+  return found;
+}
+
+double quantile(std::vector<double> values, double q) {
+  return quantiles(std::move(values), {q}).front();
 }
 
 }  // namespace poolhall::bench

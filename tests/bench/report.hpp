@@ -54,5 +54,8 @@ struct LogLogPlot {
 
 // The value below which the share `q` of `values` lies (nearest rank); sorts a copy.
 [[nodiscard]] double quantile(std::vector<double> values, double q);
+// The same for several shares at once.
+[[nodiscard]] std::vector<double> quantiles(std::vector<double> values,
+                                            const std::vector<double>& shares);
 
 }  // namespace poolhall::bench

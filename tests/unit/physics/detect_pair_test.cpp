@@ -33,6 +33,14 @@ TEST(DetectPair, NothingBeyondTheHorizon) {
   EXPECT_TRUE(first_contact(pair({1, 0}, {-1, 0}), 0.95));
 }
 
+TEST(DetectPair, AContactInTheFirstInstantsOfALongHorizonIsFound) {
+  for (const double horizon : {1e3, 1e20, 1e40, 1e59}) {
+    const auto t = first_contact(pair({two_r + 1e-13, 0}, {-0.01, 0.001}, {1e4, 0}), horizon);
+    ASSERT_TRUE(t) << horizon;
+    EXPECT_NEAR(*t, 1e-11, 1e-14) << horizon;
+  }
+}
+
 TEST(DetectPair, TouchingAndRecedingIsNoContact) {
   EXPECT_FALSE(first_contact(pair({two_r, 0}, {0.5, 0.1}), 10.0));
   EXPECT_FALSE(first_contact(pair({two_r * (1 - 1e-16), 0}, {1e-9, 0}), 10.0));
@@ -41,6 +49,10 @@ TEST(DetectPair, TouchingAndRecedingIsNoContact) {
 TEST(DetectPair, TouchingAndApproachingIsContactNow) {
   EXPECT_EQ(first_contact(pair({two_r, 0}, {-1e-9, 3}), 10.0), 0.0);
   EXPECT_EQ(first_contact(pair({two_r * (1 - 1e-13), 0}, {-1, 0}), 10.0), 0.0);
+}
+
+TEST(DetectPair, AnApproachThatEndsWithinTheLeastOfTimesIsContactNow) {
+  EXPECT_EQ(first_contact(pair({two_r - 1e-13, 0}, {-5e-313, 0}, {1e5, 0}), 10.0), 0.0);
 }
 
 TEST(DetectPair, TouchingWithClosingAccelerationIsApproaching) {
