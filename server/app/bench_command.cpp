@@ -52,8 +52,17 @@ BenchCommand add_benchmark(CLI::App& parent, int& exit_code, const std::string& 
 void add_bench_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("bench", "measure, and show the figures");
   command->require_subcommand(1);
-  add_benchmark(*command, exit_code, "precision",
-                "error against run time, against the 100-digit reference", bench::bench_precision);
+  const BenchCommand precision =
+      add_benchmark(*command, exit_code, "precision",
+                    "errors and run times of every solver and method, against 100 digits",
+                    bench::bench_precision);
+  precision.command
+      ->add_option(
+          "--only", precision.options->part,
+          "one part: accuracy (10,000 shots and 1,000 breaks), solvers (a million pairs of "
+          "each class), methods, growth or operations")
+      ->check(CLI::IsMember(
+          std::vector<std::string>(bench::precision_parts.begin(), bench::precision_parts.end())));
   add_benchmark(*command, exit_code, "rules",
                 "100,000 random games of both rule sets, and what must hold of every game",
                 bench::bench_rules);

@@ -55,6 +55,11 @@ Sequence compare_sequences(const std::vector<TimedEvent>& found,
     const auto by_key = [](const TimedEvent& p, const TimedEvent& q) { return p.key < q.key; };
     const auto first = static_cast<std::ptrdiff_t>(begin);
     const auto last = static_cast<std::ptrdiff_t>(end);
+    const auto is_ours = [&](const TimedEvent& event) { return event.key == ordered[begin].key; };
+    if (end - begin > 1 && !is_ours(reference[begin]) &&
+        std::any_of(reference.begin() + first, reference.begin() + last, is_ours)) {
+      result.has_ties_in_another_order = true;
+    }
     std::stable_sort(ordered.begin() + first, ordered.begin() + last, by_key);
     std::stable_sort(reference.begin() + first, reference.begin() + last, by_key);
     for (; begin < end; ++begin) {
@@ -63,8 +68,7 @@ Sequence compare_sequences(const std::vector<TimedEvent>& found,
                                   ", but reference: " + words(reference[begin]);
         return result;
       }
-      result.time_error =
-          std::max(result.time_error, std::abs(ordered[begin].t - reference[begin].t));
+      result.time_errors.push_back(std::abs(ordered[begin].t - reference[begin].t));
     }
   }
   result.same = ordered.size() == reference.size();

@@ -1,7 +1,7 @@
 // How a simulated shot differs from the 100-digit reference.
 //
 //   const Difference d = difference(simulated, reference_simulate(...));
-//   d.same_sequence;        // the same events in the same order, proven ties apart
+//   d.sequence.same;        // the same events in the same order, ties apart
 //   d.position;             // m, of the ball that is furthest off
 #pragma once
 
@@ -51,9 +51,10 @@ template <class Real>
 inline constexpr double tie = 1e-13;  // s
 
 struct Sequence {
-  bool same = false;
-  double time_error = 0;         // s, largest difference of a pair of events
-  std::string first_difference;  // in words, where not the same
+  bool same = false;  // but for the order of ties
+  bool has_ties_in_another_order = false;
+  std::vector<double> time_errors;  // s, of each event up to the first that is another
+  std::string first_difference;     // in words, where not the same
 };
 
 // `reference` has an entry a hop; entries of `found` with a count stand for as many.
@@ -67,18 +68,19 @@ struct Difference {
 };
 
 template <class Real>
+[[nodiscard]] std::vector<TimedEvent> timed_events(const physics::EventLog<Real>& events) {
+  std::vector<TimedEvent> timed;
+  for (const auto& event : events) {
+    timed.push_back(timed_event(event));
+  }
+  return timed;
+}
+
+template <class Real>
 [[nodiscard]] Difference difference(const physics::Simulation<Real>& found,
                                     const physics::reference::ReferenceSimulation& reference) {
-  std::vector<TimedEvent> ours;
-  for (const auto& event : found.events) {
-    ours.push_back(timed_event(event));
-  }
-  std::vector<TimedEvent> theirs;
-  for (const auto& event : reference.events) {
-    theirs.push_back(timed_event(event));
-  }
   Difference d;
-  d.sequence = compare_sequences(ours, std::move(theirs));
+  d.sequence = compare_sequences(timed_events(found.events), timed_events(reference.events));
   d.same_pockets = true;
   using physics::reference::Number;
   for (std::size_t i = 0; i < found.balls.count; ++i) {

@@ -2,10 +2,12 @@
 // as SVG into `directory`, and returns whether everything that it checks held.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
+#include <string>
 
 namespace poolhall::bench {
 
@@ -13,13 +15,18 @@ struct BenchOptions {
   std::filesystem::path directory = "bench-results";
   double share = 1;  // of the full number of scenes, for a quick look
   std::uint64_t seed = 1;
+  std::string part{};              // bench_precision: only this one of precision_parts
   std::filesystem::path scenes{};  // bench_speed: times these instead, one scene a line
 };
 
 // At least one, and `share` of `full`.
 [[nodiscard]] std::size_t scaled_count(std::size_t full, const BenchOptions& options);
 
-// Error against run time: every method against the 100-digit reference.
+// Against the 100-digit reference: random shots and breaks ("accuracy"), every solver on random
+// pairs ("solvers"), every method's error against its run time ("methods"), how errors grow
+// ("growth"), and the paper's count of operations ("operations").
+inline constexpr std::array<const char*, 5> precision_parts{"accuracy", "solvers", "methods",
+                                                            "growth", "operations"};
 bool bench_precision(const BenchOptions& options, std::ostream& out);
 
 // Extreme scenes, expected against found, and random shots and breaks.

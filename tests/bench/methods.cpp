@@ -1,12 +1,15 @@
+// A run in float rounds each number of a scene, all given as doubles: that is what it is for.
+#pragma GCC diagnostic ignored "-Wconversion"
+#pragma GCC diagnostic ignored "-Wfloat-conversion"
+
 #include "tests/bench/methods.hpp"
 
 #include <algorithm>
 #include <cmath>
 
 #include "physics/adaptive_loop.hpp"
-#include "physics/watch.hpp"
-#include "protocol/scene_json.hpp"
 #include "tests/bench/dormand_prince.hpp"
+#include "tests/bench/event_runs.hpp"
 #include "tests/bench/report.hpp"
 #include "tests/bench/time_stepping.hpp"
 #include "tests/bench/timing.hpp"
@@ -18,16 +21,6 @@ namespace {
 using physics::reference::Number;
 using physics::reference::ReferenceSimulation;
 using test_support::RandomShot;
-
-template <class Real>
-physics::Scene<Real> scene_in(const RandomShot& shot) {
-  protocol::SceneFile file;
-  file.table = shot.table;
-  file.materials = shot.materials;
-  file.balls = shot.balls;
-  file.shot = shot.shot;
-  return protocol::scene_of<Real>(file);
-}
 
 template <class Real>
 void compare_balls(const physics::BallSet<Real>& balls, const ReferenceSimulation& truth,
@@ -47,23 +40,17 @@ template <class Real, class Loop>
 Measured run_event_method(physics::RootSolver solver, const RandomShot& shot,
                           const ReferenceSimulation& truth) {
   const physics::Scene<Real> scene = scene_in<Real>(shot);
-  physics::SimulationOptions options;
-  options.contact = physics::ContactModel::sequential;
-  options.solver = solver;
+  const physics::SimulationOptions options = sequential_with(solver);
   Measured measured;
   Loop loop(scene.table, scene.materials);
   measured.microseconds = least_microseconds(3, [&] {
     physics::Unwatched none;
     static_cast<void>(loop.run(scene.balls, scene.shot, options, none));
   });
-  physics::Recorder<Real> recorder;
-  static_cast<void>(loop.run(scene.balls, scene.shot, options, recorder));
-  physics::Simulation<Real> result;
-  result.events = recorder.take();
-  result.balls = loop.balls();
+  const physics::Simulation<Real> result = played<Real, Loop>(shot, solver);
   const Difference d = difference(result, truth);
   measured.same_sequence = d.sequence.same;
-  measured.time_error = d.sequence.time_error;
+  measured.time_errors = d.sequence.time_errors;
   compare_balls(result.balls, truth, measured);
   return measured;
 }
@@ -88,16 +75,25 @@ void compare_stepped(const SteppedShot& run, const ReferenceSimulation& truth, M
     const EventKey ours{e.type, pair ? std::min(e.first, e.second) : e.first,
                         pair ? std::max(e.first, e.second) : e.first, -1};
     measured.same_sequence = ours == theirs[i];
-    measured.time_error = std::max(measured.time_error, std::abs(e.t - times[i]));
+    if (measured.same_sequence) {
+      measured.time_errors.push_back(std::abs(e.t - times[i]));
+    }
   }
   compare_balls(run.balls, truth, measured);
+}
+
+std::string words(physics::RootSolver solver) {
+  std::string name(physics::name(solver));
+  std::replace(name.begin(), name.end(), '_', ' ');
+  return name;
 }
 
 template <class Real, class Loop = physics::EventLoop<Real>>
 void add_event_method(std::vector<Method>& methods, const std::string& precision,
                       physics::RootSolver solver) {
-  const std::string family = "event method, " + std::string(physics::name(solver));
-  methods.push_back({family, family + ", " + precision,
+  const std::string family = "event method, " + words(solver);
+  const bool is_default = solver == physics::RootSolver::bracketed;
+  methods.push_back({family, family + ", " + precision, is_default ? precision : std::string{},
                      [solver](const RandomShot& shot, const ReferenceSimulation& truth) {
                        return run_event_method<Real, Loop>(solver, shot, truth);
                      }});
@@ -105,7 +101,7 @@ void add_event_method(std::vector<Method>& methods, const std::string& precision
 
 template <class Step>
 Method stepping_method(const std::string& family, const std::string& step, const Step& run) {
-  return {family, family + ", " + step,
+  return {family, family + ", " + step, step,
           [run](const RandomShot& shot, const ReferenceSimulation& truth) {
             const physics::Scene<double> scene = scene_in<double>(shot);
             Measured measured;
@@ -123,10 +119,11 @@ std::vector<Method> event_methods() {
   for (const auto solver :
        {physics::RootSolver::bracketed, physics::RootSolver::closed_form_polished,
         physics::RootSolver::closed_form}) {
+    add_event_method<float>(methods, "float", solver);
+    add_event_method<double>(methods, "double", solver);
     add_event_method<double, physics::AdaptiveLoop<double>>(methods, "as simulate", solver);
     add_event_method<double, physics::EventLoop<double, physics::Precise>>(
-        methods, "double, balls kept wider", solver);
-    add_event_method<double>(methods, "double", solver);
+        methods, "double, balls wider", solver);
     add_event_method<long double>(methods, "long double", solver);
   }
   return methods;
@@ -150,12 +147,6 @@ std::vector<Method> stepping_methods() {
                                       }));
   }
   return methods;
-}
-
-physics::reference::ReferenceScene reference_scene(const RandomShot& shot) {
-  return {shot.table, shot.materials, shot.balls,
-          physics::reference::ReferenceShot{shot.shot.a, shot.shot.b, shot.shot.theta,
-                                            shot.shot.phi, shot.shot.v}};
 }
 
 }  // namespace poolhall::bench

@@ -15,27 +15,26 @@ namespace poolhall::bench {
 struct Measured {
   double microseconds = 0;  // the shot alone, log off, the least of three runs
   bool same_sequence = false;
-  bool same_outcome = false;     // the same balls in the same pockets
-  double time_error = 0;         // s, of the events, where the sequence is the same
-  std::vector<double> position;  // m, of every ball that lies on the table in both
+  bool same_outcome = false;        // the same balls in the same pockets
+  std::vector<double> time_errors;  // s, of the events up to the first that is another
+  std::vector<double> position;     // m, of every ball that lies on the table in both
 };
 
 struct Method {
   std::string family;  // one line of the diagram
   std::string name;    // with its step or precision
+  std::string label;   // beside its point in the diagram, where there is room
   std::function<Measured(const test_support::RandomShot&,
                          const physics::reference::ReferenceSimulation&)>
       run;
 };
 
-// The event method with each root solver: in double as `simulate` plays it (balls kept in wider
-// numbers), in double throughout as `evaluate` does, and in long double. The first is the default.
+// The event method with each root solver: in float, in double throughout as `evaluate` plays it, as
+// `simulate` does (in wider numbers where double is not enough), with balls kept in wider numbers,
+// and in long double.
 [[nodiscard]] std::vector<Method> event_methods();
 // The paper's discrete scheme, Euler, Verlet, Runge-Kutta at five steps each, Dormand-Prince at
 // five tolerances.
 [[nodiscard]] std::vector<Method> stepping_methods();
-
-[[nodiscard]] physics::reference::ReferenceScene reference_scene(
-    const test_support::RandomShot& shot);
 
 }  // namespace poolhall::bench

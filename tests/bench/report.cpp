@@ -63,7 +63,7 @@ constexpr double plot_left = 80;
 constexpr double plot_top = 40;
 constexpr double plot_width = 560;
 constexpr double plot_height = 400;
-constexpr double legend_width = 240;
+constexpr double legend_width = 260;
 
 // Decades of one axis.
 struct Axis {
@@ -125,6 +125,25 @@ void draw_axes(std::ostream& out, const LogLogPlot& plot, const Axis& x, const A
       << "</text>\n</g>\n";
 }
 
+// The mark of the `index`th series: no two of eight neighbours are alike in shape and colour.
+void draw_mark(std::ostream& out, std::size_t index, double x, double y) {
+  switch (index % 4) {
+    case 0:
+      out << "<circle cx=\"" << x << "\" cy=\"" << y << "\" r=\"4\"";
+      break;
+    case 1:
+      out << "<path d=\"M" << x - 4 << ' ' << y - 4 << "h8v8h-8z\"";
+      break;
+    case 2:
+      out << "<path d=\"M" << x << ' ' << y - 5 << "l5 9h-10z\"";
+      break;
+    default:
+      out << "<path d=\"M" << x << ' ' << y - 5 << "l5 5l-5 5l-5 -5z\"";
+  }
+  // The lower ones would hide those before them.
+  out << (index == 0 ? "" : " fill=\"white\" fill-opacity=\"0.5\"") << "/>\n";
+}
+
 void draw_series(std::ostream& out, const PlotSeries& series, std::size_t index, const Axis& x,
                  const Axis& y) {
   constexpr std::array<const char*, 10> colours{"#1b6ca8", "#d1495b", "#2e933c", "#8e5ea2",
@@ -132,17 +151,24 @@ void draw_series(std::ostream& out, const PlotSeries& series, std::size_t index,
                                                 "#5d737e", "#9a8c00"};
   const char* colour = colours[index % colours.size()];
   std::ostringstream line;
+  std::ostringstream labels;
+  out << "<g stroke=\"" << colour << "\" stroke-width=\"1.5\" fill=\"" << colour << "\">\n";
   for (const PlotPoint& p : series.points) {
     const double px = plot_left + plot_width * x.share(p.x);
     const double py = plot_top + plot_height * (1 - y.share(p.y));
     line << px << ',' << py << ' ';
-    out << "<circle cx=\"" << px << "\" cy=\"" << py << "\" r=\"4\" fill=\"" << colour << "\"/>\n";
+    draw_mark(out, index, px, py);
+    if (!p.label.empty()) {
+      labels << "<text x=\"" << px + 8 << "\" y=\"" << py + 4 << "\">" << escaped_xml(p.label)
+             << "</text>\n";
+    }
   }
-  out << "<polyline fill=\"none\" stroke=\"" << colour << "\" points=\"" << line.str() << "\"/>\n";
+  out << "<polyline fill=\"none\" points=\"" << line.str() << "\"/>\n";
   const double legend_y = plot_top + 12 + 20 * static_cast<double>(index);
   const double legend_x = plot_left + plot_width + 20;
-  out << "<circle cx=\"" << legend_x << "\" cy=\"" << legend_y - 4 << "\" r=\"4\" fill=\"" << colour
-      << "\"/>\n<text x=\"" << legend_x + 12 << "\" y=\"" << legend_y << "\">"
+  draw_mark(out, index, legend_x, legend_y - 4);
+  out << "</g>\n<g fill=\"" << colour << "\" font-size=\"11\">\n"
+      << labels.str() << "</g>\n<text x=\"" << legend_x + 12 << "\" y=\"" << legend_y << "\">"
       << escaped_xml(series.name) << "</text>\n";
 }
 

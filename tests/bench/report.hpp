@@ -35,6 +35,7 @@ class ReportTable {
 struct PlotPoint {
   double x = 0;
   double y = 0;
+  std::string label{};  // written beside it
 };
 
 struct PlotSeries {
@@ -42,7 +43,7 @@ struct PlotSeries {
   std::vector<PlotPoint> points;  // both coordinates above zero
 };
 
-// Both axes logarithmic. Series with several points are joined by a line.
+// Both axes logarithmic. The points of a series are joined by a line and have a mark of their own.
 struct LogLogPlot {
   std::string title;
   std::string x_label;

@@ -65,7 +65,7 @@ Timings time_class(const SpeedClass& scenes, const BenchOptions& options) {
     physics::AdaptiveLoop<double> loop(scene.table, scene.materials);
     physics::EventLoop<double> plain(scene.table, scene.materials);
     physics::EventLoop<double, physics::Precise> wide(scene.table, scene.materials);
-    PaperScheme paper(scene.table, scene.materials);
+    PaperScheme<double> paper(scene.table, scene.materials);
     t.core.push_back(time(loop));
     t.plain.push_back(time(plain));
     t.wide.push_back(time(wide));

@@ -37,10 +37,12 @@ struct SteppedShot {
 };
 
 // The balls of the scene right after its shot, each in the state that its velocities imply.
-[[nodiscard]] physics::BallSet<double> balls_after_strike(const physics::Scene<double>& scene);
+template <class Real>
+[[nodiscard]] physics::BallSet<Real> balls_after_strike(const physics::Scene<Real>& scene);
 
-// `scene` must be possible; `step` in s.
-[[nodiscard]] SteppedShot step_through(const physics::Scene<double>& scene, Stepper stepper,
+// `scene` must be possible; `step` in s. For double, and Counted (counted.hpp).
+template <class Real>
+[[nodiscard]] SteppedShot step_through(const physics::Scene<Real>& scene, Stepper stepper,
                                        double step, double longest = 60);
 
 }  // namespace poolhall::bench
