@@ -16,6 +16,12 @@ target_compile_options(poolhall_flags INTERFACE
 target_compile_options(poolhall_flags INTERFACE
   $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)
 
+if(CMAKE_UNITY_BUILD)
+  # Sources that are compiled as one see each other's names, and none is the main file. Builds of
+  # single sources (preset `debug`) keep these warnings.
+  target_compile_options(poolhall_flags INTERFACE -Wno-shadow
+    $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 if(POOLHALL_SANITIZE_ADDRESS)
   # GCC 12 reports false -Wmaybe-uninitialized positives in sanitized code.
   add_compile_options(-fsanitize=address,undefined -fno-sanitize-recover=all

@@ -235,7 +235,7 @@ Request read_params(Method method, const JsonNode& params, const Limits& limits)
   return TournamentList{};  // not reached: every method has its case
 }
 
-Error invalid_request(std::string field, std::string reason) {
+Error refused_request(std::string field, std::string reason) {
   return {ErrorCode::invalid_request, std::move(field), std::move(reason), {}, false};
 }
 
@@ -253,7 +253,7 @@ Expected<std::optional<RequestId>> read_request_id(const JsonValue& document) {
   if (id->as<bool>() != nullptr || id->as<JsonArray>() != nullptr ||
       id->as<JsonObject>() != nullptr) {
     return tl::unexpected(
-        invalid_request("/id", "expected a number, a string or null, got " + described(*id)));
+        refused_request("/id", "expected a number, a string or null, got " + described(*id)));
   }
   return RequestId{canonical_text(*id)};
 }
@@ -262,14 +262,14 @@ Expected<Method> read_method(const JsonValue& document) {
   const JsonValue* version = document.member("jsonrpc");
   const auto* version_text = version == nullptr ? nullptr : version->as<std::string>();
   if (version_text == nullptr || *version_text != "2.0") {
-    return tl::unexpected(invalid_request(
+    return tl::unexpected(refused_request(
         "/jsonrpc", version == nullptr ? "is missing; expected \"2.0\""
                                        : "expected \"2.0\", got " + described(*version)));
   }
   const JsonValue* name = document.member("method");
   const auto* text = name == nullptr ? nullptr : name->as<std::string>();
   if (text == nullptr) {
-    return tl::unexpected(invalid_request(
+    return tl::unexpected(refused_request(
         "/method", name == nullptr ? "is missing" : "expected a string, got " + described(*name)));
   }
   const auto known = method(*text);
@@ -284,7 +284,7 @@ Expected<Method> read_method(const JsonValue& document) {
 }
 
 Error no_request(const JsonValue& document) {
-  return invalid_request(
+  return refused_request(
       "", document.as<JsonArray>() != nullptr
               ? "batches are not taken: expected one request, got " + described(document)
               : "expected an object, got " + described(document));
@@ -338,7 +338,7 @@ tl::expected<Incoming, BadLine> decode_request(std::string_view line, const Limi
   }
   if (!*id && *method != Method::lag) {
     return tl::unexpected(
-        BadLine{answer_under, invalid_request("/id", "is missing; only `lag` goes without")});
+        BadLine{answer_under, refused_request("/id", "is missing; only `lag` goes without")});
   }
   auto request = read_request(*document, *method, limits);
   if (!request) {

@@ -51,7 +51,7 @@ rules::RuleSet read_rules(const JsonNode& node) {
   return node.one_of(rules::rule_set, "\"8-ball\" or \"9-ball\"");
 }
 
-rules::TurnKind read_kind(const JsonNode& node) {
+rules::TurnKind read_turn_kind(const JsonNode& node) {
   return node.one_of(rules::turn_kind, "the name of a kind of turn");
 }
 
@@ -136,7 +136,7 @@ GameTurn<Received> read_game_turn(const JsonNode& node) {
   GameTurn<Received> turn;
   turn.game = read_id<GameId>(node.at("game"));
   turn.turn = read_turn(node);
-  turn.kind = read_kind(node.at("kind"));
+  turn.kind = read_turn_kind(node.at("kind"));
   turn.state = read_state(node.at("state"));
   turn.clock = read_clock(node.at("clock"));
   turn.legal = read_legal(node.at("legal"));

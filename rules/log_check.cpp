@@ -46,10 +46,6 @@ bool is_finite(const Ball<double>& ball) {
          std::isfinite(ball.angular_velocity.z);
 }
 
-double distance(const Vec2<double>& p, const Vec2<double>& q) {
-  return std::sqrt(dot(p - q, p - q));
-}
-
 // Form of one event, apart from the others.
 Expected<void> check_form(const Event<double>& event, std::size_t i) {
   if (event.type > EventType::off_table) {
@@ -157,10 +153,10 @@ class Follower {
     const bool struck =
         event.type == EventType::cue_strike || event.type == EventType::ball_collision;
     if (!track.touched && struck &&
-        !(distance(after.position, track.last.position) <= at_rest_tolerance)) {
+        !(length(after.position - track.last.position) <= at_rest_tolerance)) {
       return misfit(i, field,
                     ball_name(after.id) + " is " +
-                        in_mm(distance(after.position, track.last.position)) +
+                        in_mm(length(after.position - track.last.position)) +
                         " mm from where the state has it");
     }
     const MotionState before = track.last.state;
@@ -169,7 +165,7 @@ class Follower {
     }
     const double time = std::max(0.0, event.t - track.since);
     const double off =
-        distance(position_at(piece_from(track.last, materials_, time), time), after.position);
+        length(position_at(piece_from(track.last, materials_, time), time) - after.position);
     if (!(off <= moving_tolerance + run_during_hops(event, track))) {
       return misfit(
           i, field,

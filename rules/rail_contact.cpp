@@ -11,11 +11,6 @@ namespace {
 using physics::RailId;
 using physics::Vec2;
 
-double distance(const Vec2<double>& p, const Vec2<double>& q) {
-  const Vec2<double> d = p - q;
-  return std::sqrt(dot(d, d));
-}
-
 // From a point to the part of the nose line that is the rail.
 double distance_to(const physics::StraightRail<double>& rail, const Vec2<double>& p) {
   const bool across = rail.axis == physics::Axis::x;
@@ -27,7 +22,7 @@ double distance_to(const physics::StraightRail<double>& rail, const Vec2<double>
 
 double distance_to(const physics::Facing<double>& facing, const Vec2<double>& p) {
   const double along = std::clamp(dot(p - facing.from, facing.along), 0.0, facing.length);
-  return distance(p, facing.from + along * facing.along);
+  return length(p - (facing.from + along * facing.along));
 }
 
 bool faces(const physics::JawArc<double>& arc, const Vec2<double>& p) {
@@ -46,7 +41,7 @@ double RailDistances::gap(RailId rail, const Vec2<double>& position) const {
   }
   for (const auto& arc : geometry_.arcs) {
     if (arc.rail == rail && faces(arc, position)) {
-      nearest = std::min(nearest, distance(position, arc.centre) - arc.radius);
+      nearest = std::min(nearest, length(position - arc.centre) - arc.radius);
     }
   }
   for (const auto& facing : geometry_.facings) {

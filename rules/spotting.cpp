@@ -19,10 +19,6 @@ struct Obstacle {
   double reach = 0;  // m, smallest distance of the spotted ball's centre
 };
 
-double distance(const Vec2<double>& p, const Vec2<double>& q) {
-  return std::sqrt(dot(p - q, p - q));
-}
-
 std::vector<Obstacle> obstacles(const GameState& state, BallId ball,
                                 const physics::Materials& materials) {
   std::vector<Obstacle> found;
@@ -46,7 +42,7 @@ std::optional<double> place_behind(const Obstacle& obstacle, double x, double di
   }
   const double along = std::sqrt(obstacle.reach * obstacle.reach - across * across);
   double y = obstacle.centre.y + direction * along;
-  while (distance({x, y}, obstacle.centre) < obstacle.reach) {
+  while (length(Vec2<double>{x, y} - obstacle.centre) < obstacle.reach) {
     y = std::nextafter(y, direction * infinity);
   }
   return y;
@@ -68,7 +64,8 @@ std::optional<Vec2<double>> nearest_free(const std::vector<Obstacle>& balls, dou
     const bool this_side = direction * (y - table.foot_spot_y) >= 0;
     const bool on_table = y >= radius && y <= table.length - radius;
     const bool free = std::all_of(balls.begin(), balls.end(), [&](const Obstacle& ball) {
-      return !applies(clauses::spot_beyond_balls, distance({x, y}, ball.centre) < ball.reach);
+      return !applies(clauses::spot_beyond_balls,
+                      length(Vec2<double>{x, y} - ball.centre) < ball.reach);
     });
     if (this_side && on_table && free) {
       return Vec2<double>{x, y};

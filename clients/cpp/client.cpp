@@ -1,6 +1,5 @@
 #include "clients/cpp/client.hpp"
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/io_context.hpp>
@@ -15,6 +14,7 @@
 #include <random>
 #include <utility>
 
+#include "clients/cpp/awaited.hpp"
 #include "clients/cpp/connection.hpp"
 #include "clients/cpp/transport.hpp"
 
@@ -24,8 +24,6 @@ namespace asio = boost::asio;
 using SteadyClock = std::chrono::steady_clock;
 
 namespace {
-
-constexpr auto as_awaited_tuple = asio::as_tuple(asio::use_awaitable);
 
 class Backoff {
  public:
@@ -151,7 +149,7 @@ class Client::Life : public Outside {
       }
       if (!end_) {
         pause_.expires_after(backoff.next());
-        co_await pause_.async_wait(as_awaited_tuple);
+        co_await pause_.async_wait(awaited);
       }
     }
   }
@@ -187,7 +185,7 @@ class Client::Life : public Outside {
     const auto step = std::min(options_.login_deadline, options_.silence) / 2;
     while (connection_ == watched) {
       watch_.expires_after(step);
-      co_await watch_.async_wait(as_awaited_tuple);
+      co_await watch_.async_wait(awaited);
       const auto now = SteadyClock::now();
       if (connection_ != watched) {
         co_return;

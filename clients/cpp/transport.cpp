@@ -1,6 +1,6 @@
 #include "clients/cpp/transport.hpp"
+#include "clients/cpp/awaited.hpp"
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/ip/tcp.hpp>
@@ -15,7 +15,6 @@ namespace {
 
 namespace asio = boost::asio;
 using asio::ip::tcp;
-constexpr auto as_awaited_tuple = asio::as_tuple(asio::use_awaitable);
 
 class TcpTransport : public Transport {
  public:
@@ -23,8 +22,8 @@ class TcpTransport : public Transport {
 
   asio::awaitable<tl::expected<std::size_t, ConnectionError>> read_some(
       std::span<char> buffer) override {
-    const auto [error, count] = co_await socket_.async_read_some(
-        asio::buffer(buffer.data(), buffer.size()), as_awaited_tuple);
+    const auto [error, count] =
+        co_await socket_.async_read_some(asio::buffer(buffer.data(), buffer.size()), awaited);
     if (error) {
       co_return tl::unexpected(ConnectionError{error.message()});
     }
@@ -32,8 +31,8 @@ class TcpTransport : public Transport {
   }
 
   asio::awaitable<tl::expected<void, ConnectionError>> write(std::string_view bytes) override {
-    const auto [error, count] = co_await asio::async_write(
-        socket_, asio::buffer(bytes.data(), bytes.size()), as_awaited_tuple);
+    const auto [error, count] =
+        co_await asio::async_write(socket_, asio::buffer(bytes.data(), bytes.size()), awaited);
     static_cast<void>(count);
     if (error) {
       co_return tl::unexpected(ConnectionError{error.message()});
@@ -56,14 +55,12 @@ asio::awaitable<tl::expected<std::unique_ptr<Transport>, ConnectionError>> conne
     std::string host, std::string port) {
   const auto executor = co_await asio::this_coro::executor;
   tcp::resolver resolver(executor);
-  const auto [unresolved, endpoints] =
-      co_await resolver.async_resolve(host, port, as_awaited_tuple);
+  const auto [unresolved, endpoints] = co_await resolver.async_resolve(host, port, awaited);
   if (unresolved) {
     co_return tl::unexpected(ConnectionError{host + ":" + port + ": " + unresolved.message()});
   }
   tcp::socket socket(executor);
-  const auto [unreachable, endpoint] =
-      co_await asio::async_connect(socket, endpoints, as_awaited_tuple);
+  const auto [unreachable, endpoint] = co_await asio::async_connect(socket, endpoints, awaited);
   static_cast<void>(endpoint);
   if (unreachable) {
     co_return tl::unexpected(ConnectionError{host + ":" + port + ": " + unreachable.message()});

@@ -9,13 +9,12 @@
 
 #include "protocol/judge_document.hpp"
 #include "server/app/commands.hpp"
+#include "server/app/exit_codes.hpp"
 
 namespace poolhall::app {
 namespace {
 
-constexpr int done = 0;
 constexpr int not_done = 1;
-constexpr int wrong_input = 2;
 
 int judge_one(const std::string& source, const std::string& text) {
   const auto answer = protocol::judge_document(text);

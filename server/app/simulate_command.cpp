@@ -12,16 +12,14 @@
 #include "protocol/json_writer.hpp"
 #include "protocol/scene_json.hpp"
 #include "server/app/commands.hpp"
+#include "server/app/exit_codes.hpp"
 #include "server/app/scene_run.hpp"
 #include "server/app/table_svg.hpp"
 
 namespace poolhall::app {
 namespace {
 
-constexpr int done = 0;
 constexpr int not_done = 1;
-constexpr int wrong_input = 2;
-constexpr int incomplete = 3;
 
 struct SimulateArguments {
   std::string scene;
@@ -29,12 +27,12 @@ struct SimulateArguments {
   bool lines = false;
 };
 
-struct Outcome {
+struct SceneOutcome {
   protocol::SceneFile file;
   SceneRun run;
 };
 
-protocol::Expected<Outcome> simulate_text(const std::string& text) {
+protocol::Expected<SceneOutcome> simulate_text(const std::string& text) {
   auto file = protocol::decode_scene(text);
   if (!file) {
     return tl::unexpected(file.error());
@@ -43,10 +41,10 @@ protocol::Expected<Outcome> simulate_text(const std::string& text) {
   if (!run) {
     return tl::unexpected(protocol::scene_error(run.error()));
   }
-  return Outcome{std::move(*file), std::move(*run)};
+  return SceneOutcome{std::move(*file), std::move(*run)};
 }
 
-int exit_code_of(const Outcome& outcome) {
+int exit_code_of(const SceneOutcome& outcome) {
   return outcome.run.rounded.ending == physics::Ending::event_limit ? incomplete : done;
 }
 
@@ -56,7 +54,7 @@ void complain(const std::string& source, const protocol::Error& error) {
             << '\n';
 }
 
-int write_svg(const std::string& path, const Outcome& outcome) {
+int write_svg(const std::string& path, const SceneOutcome& outcome) {
   const physics::Simulation<double>& simulation = outcome.run.rounded;
   const double until = simulation.ending == physics::Ending::t_max
                            ? outcome.file.options.t_max.value_or(simulation.duration)
@@ -80,8 +78,8 @@ int simulate_one(std::istream& in, const SimulateArguments& arguments) {
   }
   std::cout << outcome->run.text << '\n';
   if (!arguments.svg.empty()) {
-    if (const int failed = write_svg(arguments.svg, *outcome); failed != done) {
-      return failed;
+    if (const int written = write_svg(arguments.svg, *outcome); written != done) {
+      return written;
     }
   }
   return exit_code_of(*outcome);

@@ -18,6 +18,7 @@
 #include <fmt/format.h>
 
 #include "server/app/commands.hpp"
+#include "server/app/exit_codes.hpp"
 #include "server/app/tournament_display.hpp"
 #include "server/net/server.hpp"
 #include "server/net/tokens.hpp"
@@ -29,8 +30,6 @@
 
 namespace poolhall::app {
 namespace {
-
-enum ExitCode { done = 0, failed = 1, wrong_input = 2, incomplete = 3 };
 
 struct RunArguments {
   std::string file;
@@ -124,12 +123,12 @@ void print_final(const net::TournamentView& view) {
 }
 
 // What the network thread leaves behind; read when the server has stopped.
-struct Outcome {
+struct TournamentOutcome {
   std::optional<net::TournamentView> view;
   std::optional<std::string> error;
 };
 
-int report(const Outcome& outcome, const std::string& database, int server_exit) {
+int report(const TournamentOutcome& outcome, const std::string& database, int server_exit) {
   if (outcome.error) {
     return fail(failed, *outcome.error);
   }
@@ -160,7 +159,7 @@ int play(const settings::TournamentFile& file, const settings::ServerSettings& s
   }
   announce(file.settings, server, settings.database);
 
-  Outcome outcome;
+  TournamentOutcome outcome;
   std::unique_ptr<net::TournamentDriver> driver;
   TournamentDisplay display;
   server.post([&](net::MatchHost& host) {

@@ -16,7 +16,7 @@
 namespace poolhall::app {
 namespace {
 
-enum ExitCode : int { all_same = 0, differs = 1, cannot_read = 2, other_version = 3 };
+enum VerifyExit : int { all_same = 0, differs = 1, cannot_read = 2, other_version = 3 };
 
 struct VerifyArguments {
   std::string database = "poolhall.db";

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -13,6 +12,7 @@
 
 #include <span>
 
+#include "server/net/awaited.hpp"
 #include "server/net/socket_options.hpp"
 
 namespace poolhall::net {
@@ -22,7 +22,6 @@ using asio::ip::tcp;
 
 namespace {
 
-constexpr auto awaited = asio::as_tuple(asio::use_awaitable);
 constexpr std::size_t lines_in_one_write = 64;
 // How long an ended connection may take to read its last line.
 constexpr std::chrono::seconds linger{2};

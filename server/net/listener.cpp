@@ -1,11 +1,11 @@
 #include "server/net/listener.hpp"
+#include "server/net/awaited.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -23,7 +23,6 @@ using protocol::ErrorCode;
 
 namespace {
 
-constexpr auto awaited = asio::as_tuple(asio::use_awaitable);
 constexpr int backlog = 4'096;
 constexpr std::chrono::milliseconds breath{50};
 

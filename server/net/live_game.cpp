@@ -26,8 +26,6 @@ constexpr std::chrono::milliseconds writer_retry{50};
 // After so many refusals of the database a game cannot go on: it is void.
 constexpr std::uint32_t failures_bound = 3;
 
-constexpr std::array<Seat, 2> both_seats{Seat::first, Seat::second};
-
 }  // namespace
 
 LiveGame::LiveGame(match::Game game, GameCard card, GameServices& services, Start start)

@@ -25,6 +25,8 @@ namespace poolhall::net {
 
 class LiveGame;
 
+inline constexpr std::array<rules::Seat, 2> both_seats{rules::Seat::first, rules::Seat::second};
+
 struct GameServices {
   boost::asio::io_context& io;
   boost::asio::thread_pool& workers;

@@ -10,12 +10,6 @@ using match::Phase;
 using protocol::Repetition;
 using std::chrono::steady_clock;
 
-namespace {
-
-constexpr std::array<Seat, 2> both_seats{Seat::first, Seat::second};
-
-}  // namespace
-
 void LiveGame::tell(const match::Store& what) {
   storage::failpoint(storage::Failpoint::before_send);
   if (what.error) {

@@ -13,7 +13,7 @@ using protocol::ErrorCode;
 
 namespace {
 
-constexpr std::chrono::milliseconds writer_retry{100};
+constexpr std::chrono::milliseconds store_retry{100};
 // A game that is void so often in a row will not become better.
 constexpr std::uint32_t attempts_bound = 5;
 
@@ -289,7 +289,7 @@ void Matches::post(storage::Writer::Work work, std::function<void()> then, std::
         }
       });
   if (posted == storage::Posted::full) {
-    auto timer = std::make_shared<boost::asio::steady_timer>(services_.io, writer_retry);
+    auto timer = std::make_shared<boost::asio::steady_timer>(services_.io, store_retry);
     timer->async_wait([this, timer, work = std::move(work), then = std::move(then),
                        what = std::move(what)](const boost::system::error_code& error) mutable {
       if (!error) {

@@ -76,7 +76,7 @@ void add_game_limits(Keys<ServerSettings>& keys) {
       [](auto& s) -> auto& { return s.limits.lag_credit_per_game; });
 }
 
-Keys<ServerSettings> make_keys() {
+Keys<ServerSettings> server_key_table() {
   Keys<ServerSettings> keys;
   keys.add(
       "name", Name{}, [](auto& s) -> auto& { return s.name; });
@@ -109,7 +109,7 @@ Keys<ServerSettings> make_keys() {
 Expected<ServerSettings> parse_server_settings(std::string_view text, const std::string& file) {
   return parse_document(text, file).and_then([&](const Node& root) -> Expected<ServerSettings> {
     ServerSettings settings;
-    if (auto done = make_keys().read(root, file, settings); !done) {
+    if (auto done = server_key_table().read(root, file, settings); !done) {
       return tl::unexpected(done.error());
     }
     return settings;
@@ -122,7 +122,7 @@ Expected<ServerSettings> load_server_settings(const std::string& file) {
 }
 
 std::vector<KeyDoc> server_keys() {
-  return make_keys().documentation();
+  return server_key_table().documentation();
 }
 
 }  // namespace poolhall::settings

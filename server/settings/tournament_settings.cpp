@@ -98,7 +98,7 @@ void add_clock_keys(Keys<TournamentSettings>& keys) {
       [](auto& s) -> auto& { return s.clock.shot_cap; });
 }
 
-Keys<TournamentSettings> make_keys() {
+Keys<TournamentSettings> tournament_key_table() {
   Keys<TournamentSettings> keys;
   keys.add(
       "name", Name{}, [](auto& s) -> auto& { return s.name; });
@@ -256,7 +256,7 @@ Expected<TournamentSettings> parse_tournament(std::string_view text, const std::
     return tl::unexpected(root.error());
   }
   TournamentSettings settings;
-  if (auto done = make_keys().read(*root, file, settings); !done) {
+  if (auto done = tournament_key_table().read(*root, file, settings); !done) {
     return tl::unexpected(done.error());
   }
   if (auto done = check_together(settings, *root, file); !done) {
@@ -279,7 +279,7 @@ Expected<TournamentFile> load_tournament(const std::string& file) {
 }
 
 std::vector<KeyDoc> tournament_keys() {
-  std::vector<KeyDoc> keys = make_keys().documentation();
+  std::vector<KeyDoc> keys = tournament_key_table().documentation();
   const auto required =
       std::find_if(keys.begin(), keys.end(), [](const KeyDoc& key) { return key.name == "name"; });
   required->default_value.reset();

@@ -39,7 +39,7 @@ struct Timings {
   int careful = 0;  // shots played again in wider numbers
 };
 
-RandomShot shot_of(const SpeedClass& scenes, std::uint64_t seed) {
+RandomShot speed_shot(const SpeedClass& scenes, std::uint64_t seed) {
   const physics::Table table = *physics::preset_table("olympiad");
   const physics::Materials materials = *physics::preset_materials("olympiad");
   if (scenes.balls == 0) {
@@ -52,7 +52,7 @@ RandomShot shot_of(const SpeedClass& scenes, std::uint64_t seed) {
 Timings time_class(const SpeedClass& scenes, const BenchOptions& options) {
   Timings t;
   for (std::size_t i = 0; i < scaled_count(1000, options); ++i) {
-    const RandomShot shot = shot_of(scenes, options.seed * 4'000'000 + i);
+    const RandomShot shot = speed_shot(scenes, options.seed * 4'000'000 + i);
     const physics::Scene<double> scene = test_support::scene_of(shot);
     physics::SimulationOptions how;
     how.contact = physics::ContactModel::sequential;
@@ -84,7 +84,7 @@ double quartic_nanoseconds(const BenchOptions& options) {
   const physics::Materials materials = *physics::preset_materials("olympiad");
   const auto c = physics::coefficients<double>(materials);
   for (std::size_t i = 0; i < 4096; ++i) {
-    const RandomShot shot = shot_of({"", 2, 0, 0}, options.seed * 5'000'000 + i);
+    const RandomShot shot = speed_shot({"", 2, 0, 0}, options.seed * 5'000'000 + i);
     const physics::Scene<double> scene = test_support::scene_of(shot);
     const auto struck =
         physics::settled(physics::strike(scene.balls[0], *scene.shot, materials), c.radius);

@@ -24,9 +24,9 @@ using namespace rules;
 constexpr std::size_t turn_limit = 5000;
 constexpr std::size_t broken_limit = 20;
 
-class Dice {
+class GameDice {
  public:
-  explicit Dice(std::uint64_t seed) : engine_(seed) {}
+  explicit GameDice(std::uint64_t seed) : engine_(seed) {}
 
   [[nodiscard]] double uniform(double low, double high) {
     return low + (high - low) * (static_cast<double>(engine_() >> 11) * 0x1p-53);
@@ -250,7 +250,7 @@ class RandomGame {
   GamesReport& report_;
   physics::Table table_;
   physics::Materials materials_;
-  Dice dice_;
+  GameDice dice_;
   GameState state_;
   bool is_broken_ = false;
 };

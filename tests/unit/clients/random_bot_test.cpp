@@ -7,7 +7,7 @@
 namespace poolhall::bots {
 namespace {
 
-client::GameInfo info(std::string game = "1") {
+client::GameInfo game_number(std::string game = "1") {
   return {.game = std::move(game),
           .table = physics::preset_table("olympiad").value(),
           .materials = physics::preset_materials("olympiad").value(),
@@ -23,7 +23,7 @@ rules::GameState state_of_kind(rules::TurnKind kind, const client::GameInfo& gam
 class EveryShotKind : public testing::TestWithParam<rules::TurnKind> {};
 
 TEST_P(EveryShotKind, ItsShotCanAlwaysBePlayed) {
-  const client::GameInfo game = info();
+  const client::GameInfo game = game_number();
   rules::GameState state = state_of_kind(GetParam(), game);
   for (std::uint32_t turn = 1; turn <= 200; ++turn) {
     state.turn = turn;
@@ -48,7 +48,7 @@ INSTANTIATE_TEST_SUITE_P(RandomBot, EveryShotKind,
                          [](const auto& kind) { return std::string(name(kind.param)); });
 
 TEST(RandomBot, ChoosesOneOfTheDecisionsOffered) {
-  const client::GameInfo game = info();
+  const client::GameInfo game = game_number();
   rules::GameState state = state_of_kind(rules::TurnKind::decision, game);
   state.options = {rules::Decision::spot_eight, rules::Decision::rerack_breaker_breaks};
   int spotted = 0;
@@ -63,18 +63,18 @@ TEST(RandomBot, ChoosesOneOfTheDecisionsOffered) {
 }
 
 TEST(RandomBot, TheSameSeedPlaysTheSameShotAndAnotherSeedOrGameAnother) {
-  const client::GameInfo game = info();
+  const client::GameInfo game = game_number();
   const rules::GameState state = state_of_kind(rules::TurnKind::shot, game);
   const auto shot = [&](const client::GameInfo& where, std::uint64_t seed) {
     return std::get<client::Shot>(RandomBot(where, seed).choose({where, state})).stroke.phi;
   };
   EXPECT_EQ(shot(game, 5), shot(game, 5));
   EXPECT_NE(shot(game, 5), shot(game, 6));
-  EXPECT_NE(shot(game, 5), shot(info("2"), 5));
+  EXPECT_NE(shot(game, 5), shot(game_number("2"), 5));
 }
 
 TEST(RandomBot, ARefusedShotIsNotRepeated) {
-  const client::GameInfo game = info();
+  const client::GameInfo game = game_number();
   const rules::GameState state = state_of_kind(rules::TurnKind::shot, game);
   RandomBot bot(game, 5);
   const auto first = std::get<client::Shot>(bot.choose({game, state, {}, 0}));

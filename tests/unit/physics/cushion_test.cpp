@@ -33,7 +33,7 @@ Ball<Real> bounced(const Ball<Real>& ball, const Materials& m) {
   return after_cushion(ball, Vec2<Real>{Real(1), Real(0)}, m, nose_angle<Real>(table, m));
 }
 
-double speed(const Ball<double>& ball) {
+double speed_of(const Ball<double>& ball) {
   return std::hypot(ball.velocity.x, ball.velocity.y);
 }
 
@@ -41,7 +41,7 @@ double angle_from_normal(const Ball<double>& ball) {
   return std::atan2(ball.velocity.y, -ball.velocity.x) * 180 / std::numbers::pi;
 }
 
-double energy(const Ball<double>& ball, const Materials& m) {
+double energy_per_mass(const Ball<double>& ball, const Materials& m) {
   const Vec3<double>& w = ball.angular_velocity;
   return dot(ball.velocity, ball.velocity) + 0.4 * m.ball_radius * m.ball_radius * dot(w, w);
 }
@@ -58,7 +58,7 @@ class HanRebound : public ::testing::TestWithParam<Rebound> {};
 TEST_P(HanRebound, HasThePublishedSpeedAndAngle) {
   const Ball<double> after = bounced(ball_at<double>(1, GetParam().degrees, GetParam().rolls),
                                      with_cushion(Han2005Cushion{}));
-  EXPECT_NEAR(speed(after), GetParam().speed, 1e-3);
+  EXPECT_NEAR(speed_of(after), GetParam().speed, 1e-3);
   EXPECT_NEAR(angle_from_normal(after), GetParam().angle, 1e-2);
 }
 INSTANTIATE_TEST_SUITE_P(Cushion, HanRebound,
@@ -71,7 +71,7 @@ class MathavanRebound : public ::testing::TestWithParam<Rebound> {};
 TEST_P(MathavanRebound, HasTheConvergedSpeedAndAngle) {
   const Ball<double> after = bounced(ball_at<double>(1, GetParam().degrees, GetParam().rolls),
                                      with_cushion(Mathavan2010Cushion{}));
-  EXPECT_NEAR(speed(after), GetParam().speed, 1e-3);
+  EXPECT_NEAR(speed_of(after), GetParam().speed, 1e-3);
   EXPECT_NEAR(angle_from_normal(after), GetParam().angle, 1e-2);
 }
 TEST_P(MathavanRebound, AgreesWithLongDouble) {
@@ -164,8 +164,8 @@ TEST(Mathavan2010, EndsAndGainsNoEnergyAtExtremes) {
         Ball<double> ball = ball_at<double>(1, 40, false);
         ball.angular_velocity = {spin, -2 * spin, 0.5 * spin};
         const Ball<double> after = bounced(ball, m);
-        EXPECT_TRUE(std::isfinite(energy(after, m))) << mu << ' ' << cloth << ' ' << spin;
-        EXPECT_LE(energy(after, m), energy(ball, m) * (1 + 1e-12))
+        EXPECT_TRUE(std::isfinite(energy_per_mass(after, m))) << mu << ' ' << cloth << ' ' << spin;
+        EXPECT_LE(energy_per_mass(after, m), energy_per_mass(ball, m) * (1 + 1e-12))
             << mu << ' ' << cloth << ' ' << spin;
         EXPECT_LE(after.velocity.x, 1e-12) << mu << ' ' << cloth << ' ' << spin;
       }

@@ -11,18 +11,18 @@ namespace poolhall::physics {
 namespace {
 
 namespace mp = boost::multiprecision;
-using Wide = mp::number<mp::cpp_bin_float<60>, mp::et_off>;
+using Digits60 = mp::number<mp::cpp_bin_float<60>, mp::et_off>;
 
 // Distance of `value` from the exact result in units of the exact result's last place.
-double ulps(double value, const Wide& exact) {
+double ulps(double value, const Digits60& exact) {
   const double rounded = static_cast<double>(exact);
   const double next = std::nextafter(std::abs(rounded), std::numeric_limits<double>::infinity());
-  const Wide last_place = Wide(next) - Wide(std::abs(rounded));
-  return static_cast<double>(abs(Wide(value) - exact) / last_place);
+  const Digits60 last_place = Digits60(next) - Digits60(std::abs(rounded));
+  return static_cast<double>(abs(Digits60(value) - exact) / last_place);
 }
 
-Wide radians(double degrees) {
-  return Wide(degrees) * boost::math::constants::pi<Wide>() / 180;
+Digits60 radians(double degrees) {
+  return Digits60(degrees) * boost::math::constants::pi<Digits60>() / 180;
 }
 
 TEST(DirectionOfDegrees, IsWithinOneUlpOfSineAndCosine) {
@@ -99,15 +99,16 @@ TEST(DirectionOfDegrees, IsAsPreciseAsWiderTypes) {
   std::uniform_real_distribution<double> angle(-360, 360);
   for (int i = 0; i < 500; ++i) {
     const double degrees = angle(random);
-    const Wide exact = sin(radians(degrees));
+    const Digits60 exact = sin(radians(degrees));
     const auto of_long = direction_of_degrees(static_cast<long double>(degrees));
     const auto of_quad = direction_of_degrees(static_cast<Float128>(degrees));
-    const auto of_wide = direction_of_degrees(Wide(degrees));
-    EXPECT_LT(abs(Wide(of_long.sine) - exact), 4e-19);
-    const Wide quad = Wide(static_cast<double>(of_quad.sine)) +
-                      Wide(static_cast<double>(of_quad.sine - static_cast<double>(of_quad.sine)));
+    const auto of_wide = direction_of_degrees(Digits60(degrees));
+    EXPECT_LT(abs(Digits60(of_long.sine) - exact), 4e-19);
+    const Digits60 quad =
+        Digits60(static_cast<double>(of_quad.sine)) +
+        Digits60(static_cast<double>(of_quad.sine - static_cast<double>(of_quad.sine)));
     EXPECT_LT(abs(quad - exact), 1e-32);
-    EXPECT_LT(abs(of_wide.sine - exact), Wide("1e-58"));
+    EXPECT_LT(abs(of_wide.sine - exact), Digits60("1e-58"));
   }
 }
 
@@ -118,7 +119,7 @@ TEST(Exponential, IsWithinOneUlp) {
   double worst = 0;
   for (int i = 0; i < 20000; ++i) {
     const double x = i % 2 == 0 ? whole(random) : usual(random);
-    worst = std::max(worst, ulps(exponential(x), exp(Wide(x))));
+    worst = std::max(worst, ulps(exponential(x), exp(Digits60(x))));
   }
   EXPECT_LT(worst, 1.0);
 }
@@ -138,7 +139,7 @@ TEST(NaturalLogarithm, IsWithinOneUlp) {
   double worst = 0;
   for (int i = 0; i < 20000; ++i) {
     const double x = i % 2 == 0 ? std::exp2(exponent(random)) : near_one(random);
-    worst = std::max(worst, ulps(natural_logarithm(x), log(Wide(x))));
+    worst = std::max(worst, ulps(natural_logarithm(x), log(Digits60(x))));
   }
   EXPECT_LT(worst, 1.0);
   EXPECT_EQ(natural_logarithm(1.0), 0);
@@ -150,23 +151,23 @@ TEST(ArcSine, IsWithinOneUlp) {
   double worst = 0;
   for (int i = 0; i < 20000; ++i) {
     const double x = sine(random);
-    worst = std::max(worst, ulps(arc_sine(x), asin(Wide(x))));
+    worst = std::max(worst, ulps(arc_sine(x), asin(Digits60(x))));
   }
   EXPECT_LT(worst, 1.0);
   EXPECT_EQ(arc_sine(0.0), 0);
-  EXPECT_LT(ulps(arc_sine(1.0), boost::math::constants::half_pi<Wide>()), 0.5);
+  EXPECT_LT(ulps(arc_sine(1.0), boost::math::constants::half_pi<Digits60>()), 0.5);
 }
 
 TEST(Elementary, WideTypesAgreeWithTheirLibrary) {
   std::mt19937_64 random(6);
   std::uniform_real_distribution<double> x(-0.99, 0.99);
   for (int i = 0; i < 200; ++i) {
-    const Wide w(x(random));
-    EXPECT_LT(abs(exponential(w) - exp(w)), Wide("1e-57"));
-    EXPECT_LT(abs(natural_logarithm(Wide(w + 1)) - log(Wide(w + 1))), Wide("1e-57"));
-    EXPECT_LT(abs(arc_sine(w) - asin(w)), Wide("1e-57"));
+    const Digits60 w(x(random));
+    EXPECT_LT(abs(exponential(w) - exp(w)), Digits60("1e-57"));
+    EXPECT_LT(abs(natural_logarithm(Digits60(w + 1)) - log(Digits60(w + 1))), Digits60("1e-57"));
+    EXPECT_LT(abs(arc_sine(w) - asin(w)), Digits60("1e-57"));
   }
-  EXPECT_LT(abs(pi<Wide>() - boost::math::constants::pi<Wide>()), Wide("1e-58"));
+  EXPECT_LT(abs(pi<Digits60>() - boost::math::constants::pi<Digits60>()), Digits60("1e-58"));
 }
 
 }  // namespace

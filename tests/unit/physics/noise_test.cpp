@@ -9,7 +9,7 @@
 namespace poolhall::physics {
 namespace {
 
-constexpr double degree = std::numbers::pi / 180;
+constexpr double radian_per_degree = std::numbers::pi / 180;
 
 // Wichura 1988, table of the paper's check values for PPND16.
 TEST(NormalQuantile, GivesWichurasPublishedValues) {
@@ -42,8 +42,8 @@ TEST(PresetNoise, OlympiadHasTheOlympiadsDeviations) {
   const NoiseLevel level = preset_noise("olympiad").value();
   EXPECT_DOUBLE_EQ(level.a, 0.0005);
   EXPECT_DOUBLE_EQ(level.b, 0.0005);
-  EXPECT_DOUBLE_EQ(level.theta, 0.1 * degree);
-  EXPECT_DOUBLE_EQ(level.phi, 0.125 * degree);
+  EXPECT_DOUBLE_EQ(level.theta, 0.1 * radian_per_degree);
+  EXPECT_DOUBLE_EQ(level.phi, 0.125 * radian_per_degree);
   EXPECT_DOUBLE_EQ(level.speed, 0.075);
 }
 

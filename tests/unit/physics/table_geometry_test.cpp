@@ -8,10 +8,10 @@
 namespace poolhall::physics {
 namespace {
 
-constexpr double radius = 0.028575;
+constexpr double geometry_ball_radius = 0.028575;
 
 TableGeometry<double> geometry_of(const char* name) {
-  return table_geometry<double>(preset_table(name).value(), radius);
+  return table_geometry<double>(preset_table(name).value(), geometry_ball_radius);
 }
 
 const StraightRail<double>& rail(const TableGeometry<double>& geometry, RailId id) {
@@ -31,7 +31,7 @@ double distance(const Vec2<double>& p, const Vec2<double>& q) {
 TEST(TableGeometry, WithoutPocketsHasSixRailsThatCloseTheRectangle) {
   Table table = preset_table("olympiad").value();
   table.pockets = NoPockets{};
-  const auto geometry = table_geometry<double>(table, radius);
+  const auto geometry = table_geometry<double>(table, geometry_ball_radius);
   EXPECT_EQ(geometry.rails.size, rail_count);
   EXPECT_TRUE(geometry.mouths.empty());
   EXPECT_TRUE(geometry.arcs.empty());
@@ -41,7 +41,7 @@ TEST(TableGeometry, WithoutPocketsHasSixRailsThatCloseTheRectangle) {
   EXPECT_EQ(rail(geometry, RailId::head_left).end, table.length / 2);
   EXPECT_EQ(rail(geometry, RailId::foot_left).begin, table.length / 2);
   EXPECT_EQ(rail(geometry, RailId::foot_left).end, table.length);
-  EXPECT_EQ(rail(geometry, RailId::foot).centre_line, table.length - radius);
+  EXPECT_EQ(rail(geometry, RailId::foot).centre_line, table.length - geometry_ball_radius);
   EXPECT_EQ(rail(geometry, RailId::head_right).into, (Vec2<double>{1, 0}));
 }
 
@@ -54,8 +54,8 @@ TEST(TableGeometry, OlympiadCornerMouthsMeetTheRailsWhereTheNosesEnd) {
   }
   const MouthLine<double>& corner = geometry.mouths[0];
   EXPECT_EQ(corner.pocket, PocketId::head_left);
-  EXPECT_NEAR(corner.from.x + corner.from.y, 0.11 / std::sqrt(2.0) + radius, 1e-16);
-  EXPECT_EQ(corner.from.x, radius);
+  EXPECT_NEAR(corner.from.x + corner.from.y, 0.11 / std::sqrt(2.0) + geometry_ball_radius, 1e-16);
+  EXPECT_EQ(corner.from.x, geometry_ball_radius);
   EXPECT_NEAR(corner.from.y, rail(geometry, RailId::head_left).begin, 1e-17);
   EXPECT_NEAR(corner.to.x, rail(geometry, RailId::head).begin, 1e-17);
 }
@@ -64,7 +64,7 @@ TEST(TableGeometry, OlympiadSideMouthsFillTheGapOfTheLongRails) {
   const auto geometry = geometry_of("olympiad");
   const MouthLine<double>& side = geometry.mouths[4];
   EXPECT_EQ(side.pocket, PocketId::side_left);
-  EXPECT_EQ(side.from.x, radius);
+  EXPECT_EQ(side.from.x, geometry_ball_radius);
   EXPECT_EQ(side.from.y, rail(geometry, RailId::head_left).end);
   EXPECT_EQ(side.to.y, rail(geometry, RailId::foot_left).begin);
   EXPECT_NEAR(side.to.y - side.from.y, 0.12, 1e-15);
@@ -137,8 +137,8 @@ TEST(TableGeometry, HolesLieBehindTheNoseLines) {
 TEST(TableGeometry, WiderTypesGiveTheSameTable) {
   for (const std::string& name : preset_table_names()) {
     const Table table = preset_table(name).value();
-    const auto narrow = table_geometry<double>(table, radius);
-    const auto wide = table_geometry<long double>(table, radius);
+    const auto narrow = table_geometry<double>(table, geometry_ball_radius);
+    const auto wide = table_geometry<long double>(table, geometry_ball_radius);
     ASSERT_EQ(narrow.facings.size, wide.facings.size);
     for (std::size_t i = 0; i < narrow.facings.size; ++i) {
       EXPECT_NEAR(narrow.facings[i].from.x, static_cast<double>(wide.facings[i].from.x), 4e-16);

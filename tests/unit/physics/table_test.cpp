@@ -17,7 +17,7 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::UnorderedElementsAre;
 
-constexpr double radius = 0.028575;
+constexpr double table_ball_radius = 0.028575;
 
 // The `key = value` lines of a preset's file.
 std::map<std::string, std::string> settings(const std::string& path) {
@@ -82,7 +82,7 @@ TEST(PresetTable, HasTheHeadStringAndFootSpotAtTheQuarters) {
     EXPECT_DOUBLE_EQ(table.head_string, table.length / 4) << name;
     EXPECT_DOUBLE_EQ(table.foot_spot_x, table.width / 2) << name;
     EXPECT_DOUBLE_EQ(table.foot_spot_y, 3 * table.length / 4) << name;
-    EXPECT_TRUE(check_table(table, radius).has_value()) << name;
+    EXPECT_TRUE(check_table(table, table_ball_radius).has_value()) << name;
   }
 }
 
@@ -113,7 +113,7 @@ Table changed(const char* preset, void (*change)(Table&)) {
 class CheckTable : public ::testing::TestWithParam<BadTable> {};
 
 TEST_P(CheckTable, NamesTheFieldThatIsWrong) {
-  const Expected<void> checked = check_table(GetParam().table, radius);
+  const Expected<void> checked = check_table(GetParam().table, table_ball_radius);
   ASSERT_FALSE(checked.has_value());
   EXPECT_EQ(checked.error().fault, GetParam().fault);
   EXPECT_EQ(checked.error().field, GetParam().field);

@@ -12,7 +12,7 @@
 namespace poolhall::protocol {
 namespace {
 
-const Limits limits;
+const Limits codec_limits;
 
 std::string_view without_end(const std::string& line) {
   EXPECT_TRUE(line.ends_with('\n'));
@@ -37,7 +37,7 @@ std::string canonical(std::string_view line) {
 TEST(Codec, ReadsBackEveryRequest) {
   for (const Request& request : test_support::sample_requests()) {
     const std::string line = encode_request(5, request);
-    const auto incoming = decode_request(without_end(line), limits);
+    const auto incoming = decode_request(without_end(line), codec_limits);
     ASSERT_TRUE(incoming) << line << incoming.error().error.field << ": "
                           << incoming.error().error.reason;
     EXPECT_EQ(incoming->id->json, "5");
@@ -47,7 +47,7 @@ TEST(Codec, ReadsBackEveryRequest) {
 }
 
 TEST(Codec, ReadsBackLagWithoutAnId) {
-  const auto incoming = decode_request(without_end(encode_lag({42})), limits);
+  const auto incoming = decode_request(without_end(encode_lag({42})), codec_limits);
   ASSERT_TRUE(incoming);
   EXPECT_FALSE(incoming->id);
   EXPECT_EQ(std::get<Lag>(incoming->request).t, 42);

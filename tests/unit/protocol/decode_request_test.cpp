@@ -8,7 +8,7 @@
 namespace poolhall::protocol {
 namespace {
 
-const Limits limits;
+const Limits default_limits;
 
 std::string line(std::string_view method, std::string_view params) {
   return R"({"jsonrpc":"2.0","id":1,"method":")" + std::string(method) + R"(","params":)" +
@@ -17,7 +17,7 @@ std::string line(std::string_view method, std::string_view params) {
 
 template <class Wanted>
 Wanted decoded(std::string_view method, std::string_view params) {
-  const auto incoming = decode_request(line(method, params), limits);
+  const auto incoming = decode_request(line(method, params), default_limits);
   if (!incoming) {
     ADD_FAILURE() << incoming.error().error.field << ": " << incoming.error().error.reason;
     return {};
@@ -28,7 +28,7 @@ Wanted decoded(std::string_view method, std::string_view params) {
 }
 
 Error refused_line(std::string_view text) {
-  const auto incoming = decode_request(text, limits);
+  const auto incoming = decode_request(text, default_limits);
   EXPECT_FALSE(incoming) << text;
   return incoming ? Error{} : incoming.error().error;
 }
@@ -56,7 +56,7 @@ TEST(DecodeRequest, KeepsTheIdAsCanonicalText) {
   const auto id = [](std::string_view json) {
     return decode_request(
                R"({"jsonrpc":"2.0","method":"ping","params":{},"id":)" + std::string(json) + "}",
-               limits)
+               default_limits)
         ->id->json;
   };
   EXPECT_EQ(id("7"), "7");
@@ -66,7 +66,8 @@ TEST(DecodeRequest, KeepsTheIdAsCanonicalText) {
 }
 
 TEST(DecodeRequest, LetsOnlyLagGoWithoutAnId) {
-  const auto lag = decode_request(R"({"jsonrpc":"2.0","method":"lag","params":{"t":5}})", limits);
+  const auto lag =
+      decode_request(R"({"jsonrpc":"2.0","method":"lag","params":{"t":5}})", default_limits);
   ASSERT_TRUE(lag);
   EXPECT_FALSE(lag->id);
   EXPECT_EQ(std::get<Lag>(lag->request).t, 5);
@@ -94,7 +95,7 @@ TEST(DecodeRequest, NamesTheFieldOfABadFrame) {
 
 TEST(DecodeRequest, SaysThatAMethodIsUnknownUnderTheRequestsId) {
   const auto bad =
-      decode_request(R"({"jsonrpc":"2.0","id":"q","method":"fly","params":{}})", limits);
+      decode_request(R"({"jsonrpc":"2.0","id":"q","method":"fly","params":{}})", default_limits);
   ASSERT_FALSE(bad);
   EXPECT_EQ(bad.error().id.json, "\"q\"");
   EXPECT_EQ(bad.error().error.code, ErrorCode::method_not_found);
@@ -103,13 +104,14 @@ TEST(DecodeRequest, SaysThatAMethodIsUnknownUnderTheRequestsId) {
 
 TEST(DecodeRequest, IgnoresMembersThatItDoesNotKnow) {
   EXPECT_EQ(decoded<Ack>("ack", R"({"game":4,"mood":"good"})").game, GameId{4});
-  EXPECT_TRUE(
-      decode_request(R"({"jsonrpc":"2.0","id":1,"method":"tournament.list","extra":[]})", limits));
+  EXPECT_TRUE(decode_request(R"({"jsonrpc":"2.0","id":1,"method":"tournament.list","extra":[]})",
+                             default_limits));
 }
 
 TEST(DecodeRequest, AsksForNoParamsWhereNoneAreNeeded) {
-  EXPECT_TRUE(decode_request(R"({"jsonrpc":"2.0","id":1,"method":"ping"})", limits));
-  EXPECT_TRUE(decode_request(R"({"jsonrpc":"2.0","id":1,"method":"tournament.list"})", limits));
+  EXPECT_TRUE(decode_request(R"({"jsonrpc":"2.0","id":1,"method":"ping"})", default_limits));
+  EXPECT_TRUE(
+      decode_request(R"({"jsonrpc":"2.0","id":1,"method":"tournament.list"})", default_limits));
   EXPECT_EQ(refused("ping", "3").field, "/params");
 }
 
@@ -148,7 +150,7 @@ TEST(DecodeRequest, NamesTheFieldOfABadHello) {
 
 TEST(DecodeRequest, TakesNamesOfOneTo32CharactersOnly) {
   const auto named = [](const std::string& name) {
-    return decode_request(line("register", R"({"name":")" + name + R"("})"), limits);
+    return decode_request(line("register", R"({"name":")" + name + R"("})"), default_limits);
   };
   EXPECT_TRUE(named("a"));
   EXPECT_TRUE(named(std::string(32, 'Z')));
@@ -222,7 +224,7 @@ TEST(DecodeRequest, NamesTheFieldOfABadShotAndWhatCame) {
 TEST(DecodeRequest, TakesShotIdsOfOneTo64CharactersAndIntegers) {
   const std::string good(good_shot);
   const auto with_id = [&](const std::string& id) {
-    return decode_request(line("shot", replaced(good, "\"s\"", id)), limits);
+    return decode_request(line("shot", replaced(good, "\"s\"", id)), default_limits);
   };
   EXPECT_TRUE(with_id("-5"));
   std::string accents;

@@ -93,7 +93,7 @@ const std::vector<Row> rows{
 
 }  // namespace opening
 
-namespace decision {
+namespace decisions {
 
 const std::string three = " accept rerack_chooser_breaks rerack_breaker_breaks";
 const std::vector<Row> rows{
@@ -133,7 +133,7 @@ const std::vector<Row> rows{
      "lost time", "shot_time_exceeded -> first ball_in_hand, 8 at 1.67700"},
 };
 
-}  // namespace decision
+}  // namespace decisions
 
 namespace open_table {
 
@@ -536,7 +536,7 @@ const std::vector<Row> rows{
 std::vector<Row> eight_ball_rows() {
   std::vector<Row> rows;
   for (const auto& part :
-       {opening::rows, decision::rows, open_table::rows, groups::rows, eight::rows, in_hand::rows,
+       {opening::rows, decisions::rows, open_table::rows, groups::rows, eight::rows, in_hand::rows,
         rail::rows, simultaneous::rows, stalemate::rows, spotting::rows}) {
     rows.insert(rows.end(), part.begin(), part.end());
   }

@@ -4,7 +4,7 @@
 namespace poolhall::rules::test {
 namespace {
 
-namespace opening {
+namespace nine_opening {
 
 const std::string b = "9 break";
 const std::vector<Row> rows{
@@ -41,9 +41,9 @@ const std::vector<Row> rows{
     {"nine break lost", b, "lost refusals", "too_many_refusals -> second break, fouls 1 0"},
 };
 
-}  // namespace opening
+}  // namespace nine_opening
 
-namespace shot {
+namespace nine_shot {
 
 const std::string s = "9 shot";
 const std::vector<Row> rows{
@@ -97,9 +97,9 @@ const std::vector<Row> rows{
      "-> second shot"},
 };
 
-}  // namespace shot
+}  // namespace nine_shot
 
-namespace push_out {
+namespace nine_push_out {
 
 const std::string p = "9 shot push";
 const std::string choice = "-> second decision shoot pass_back";
@@ -131,9 +131,9 @@ const std::vector<Row> rows{
      "refused bad_shot "},
 };
 
-}  // namespace push_out
+}  // namespace nine_push_out
 
-namespace foul_count {
+namespace nine_foul_count {
 
 const std::vector<Row> rows{
     {"second foul in a row", "9 shot fouls 1 0", "none: 0-foot",
@@ -160,9 +160,9 @@ const std::vector<Row> rows{
      "refused bad_state /fouls_in_a_row/0"},
 };
 
-}  // namespace foul_count
+}  // namespace nine_foul_count
 
-namespace spotting {
+namespace nine_spotting {
 
 const std::string foul = "scratch -> second ball_in_hand, fouls 1 0, 9 at ";
 const std::vector<Row> rows{
@@ -178,14 +178,14 @@ const std::vector<Row> rows{
      "push: 0>1:0.558,1.677 9@foot_left", "-> second decision shoot pass_back, 9 at 1.73416"},
 };
 
-}  // namespace spotting
+}  // namespace nine_spotting
 
 }  // namespace
 
 std::vector<Row> nine_ball_rows() {
   std::vector<Row> rows;
-  for (const auto& part :
-       {opening::rows, shot::rows, push_out::rows, foul_count::rows, spotting::rows}) {
+  for (const auto& part : {nine_opening::rows, nine_shot::rows, nine_push_out::rows,
+                           nine_foul_count::rows, nine_spotting::rows}) {
     rows.insert(rows.end(), part.begin(), part.end());
   }
   return rows;

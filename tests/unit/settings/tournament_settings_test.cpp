@@ -11,7 +11,7 @@ using testing::StartsWith;
 
 const std::string two_entries = "[[entry]]\nhouse = \"greedy\"\n[[entry]]\nhouse = \"random\"\n";
 
-std::string refusal(const std::string& source) {
+std::string tournament_refusal(const std::string& source) {
   const auto settings = parse_tournament(source, "t.toml");
   return settings ? "accepted" : text(settings.error());
 }
@@ -71,45 +71,50 @@ TEST(TournamentSettings, AnEntryIsAHouseBotACommandOrAnAgent) {
 
 TEST(TournamentSettings, AnEntryWithoutOrWithTwoPlayersIsRefusedAtItsLine) {
   const std::string start = "name = \"cup\"\n" + two_entries + "[[entry]]\n";
-  EXPECT_EQ(refusal(start + "name = \"x\"\n"),
+  EXPECT_EQ(tournament_refusal(start + "name = \"x\"\n"),
             "t.toml:6:1: entry: 0 of house, command and agent came, expected exactly one");
-  EXPECT_THAT(refusal(start + "house = \"greedy\"\nagent = \"Anna\"\n"),
+  EXPECT_THAT(tournament_refusal(start + "house = \"greedy\"\nagent = \"Anna\"\n"),
               HasSubstr("2 of house, command and agent came"));
-  EXPECT_THAT(refusal(start + "command = \"x\"\n"), HasSubstr("no name came with command"));
-  EXPECT_THAT(refusal(start + "agent = \"A\"\noptions = {a = 1}\n"),
+  EXPECT_THAT(tournament_refusal(start + "command = \"x\"\n"),
+              HasSubstr("no name came with command"));
+  EXPECT_THAT(tournament_refusal(start + "agent = \"A\"\noptions = {a = 1}\n"),
               HasSubstr("options came without house"));
-  EXPECT_THAT(refusal(start + "agent = \"A\"\nname = \"B\"\n"), HasSubstr("name came with agent"));
+  EXPECT_THAT(tournament_refusal(start + "agent = \"A\"\nname = \"B\"\n"),
+              HasSubstr("name came with agent"));
 }
 
 TEST(TournamentSettings, TwoEntriesOfOneNameAreRefused) {
-  EXPECT_EQ(refusal("name = \"cup\"\n" + two_entries + "[[entry]]\nhouse = \"greedy\"\n"),
-            "t.toml:6:1: entry: the name \"greedy\" came twice, expected a name of its own for "
-            "every entry");
+  EXPECT_EQ(
+      tournament_refusal("name = \"cup\"\n" + two_entries + "[[entry]]\nhouse = \"greedy\"\n"),
+      "t.toml:6:1: entry: the name \"greedy\" came twice, expected a name of its own for "
+      "every entry");
 }
 
 TEST(TournamentSettings, ATournamentNeedsAtLeastTwoEntries) {
-  EXPECT_THAT(refusal("name = \"cup\"\n"), HasSubstr("entry: none came, expected 2 to 256"));
-  EXPECT_THAT(refusal("name = \"cup\"\n[[entry]]\nhouse = \"greedy\"\n"),
+  EXPECT_THAT(tournament_refusal("name = \"cup\"\n"),
+              HasSubstr("entry: none came, expected 2 to 256"));
+  EXPECT_THAT(tournament_refusal("name = \"cup\"\n[[entry]]\nhouse = \"greedy\"\n"),
               HasSubstr("entry: 1 came, expected 2 to 256"));
-  EXPECT_THAT(refusal("name = \"cup\"\nentry = [1, 2]\n"),
+  EXPECT_THAT(tournament_refusal("name = \"cup\"\nentry = [1, 2]\n"),
               HasSubstr("the whole number 1 came, expected [[entry]] tables"));
-  EXPECT_THAT(refusal("name = \"cup\"\nentry = 3\n"), HasSubstr("entry: none came"));
+  EXPECT_THAT(tournament_refusal("name = \"cup\"\nentry = 3\n"), HasSubstr("entry: none came"));
 }
 
 TEST(TournamentSettings, ATournamentNeedsAName) {
-  EXPECT_THAT(refusal(two_entries), HasSubstr("name: nothing came, expected a name"));
+  EXPECT_THAT(tournament_refusal(two_entries), HasSubstr("name: nothing came, expected a name"));
 }
 
 TEST(TournamentSettings, MirroredGamesComeInPairs) {
-  EXPECT_EQ(refusal("name = \"cup\"\ngames_per_match = 3\n" + two_entries),
+  EXPECT_EQ(tournament_refusal("name = \"cup\"\ngames_per_match = 3\n" + two_entries),
             "t.toml:2:19: games_per_match: 3 came, expected an even number, since mirrored = "
             "\"rack\" plays every rack twice");
 }
 
 TEST(TournamentSettings, UnknownKeysOfAnEntryAreRefusedWithTheNearestName) {
-  EXPECT_EQ(refusal("name = \"cup\"\n[[entry]]\nhose = \"greedy\"\n[[entry]]\nhouse = \"b\"\n"),
+  EXPECT_EQ(tournament_refusal(
+                "name = \"cup\"\n[[entry]]\nhose = \"greedy\"\n[[entry]]\nhouse = \"b\"\n"),
             "t.toml:3:1: unknown key \"hose\"; did you mean \"house\"?");
-  EXPECT_THAT(refusal("name = \"cup\"\ngames = 4\n" + two_entries),
+  EXPECT_THAT(tournament_refusal("name = \"cup\"\ngames = 4\n" + two_entries),
               StartsWith("t.toml:2:1: unknown key \"games\"; did you mean \"games_per_match\"?"));
 }
 
@@ -120,7 +125,7 @@ TEST(TournamentSettings, WrongValuesAreRefused) {
         "rack_gap_mm = nan", "max_concurrent_games = 0", "seed = -1", "seed = 9007199254740992",
         "tie_breaks = [\"wins\", \"wins\"]", "tie_breaks = \"wins\"", "tie_breaks = [\"buchholz\"]",
         "clock.game_seconds = 0", "clock.shot_cap_seconds = 0"}) {
-    EXPECT_THAT(refusal("name = \"cup\"\n" + std::string(line) + "\n" + two_entries),
+    EXPECT_THAT(tournament_refusal("name = \"cup\"\n" + std::string(line) + "\n" + two_entries),
                 HasSubstr("came, expected"))
         << line;
   }
@@ -128,8 +133,8 @@ TEST(TournamentSettings, WrongValuesAreRefused) {
 
 TEST(TournamentSettings, OptionsThatAreNoWordsOfACommandLineAreRefused) {
   for (const char* options : {"{\"--x\" = 1}", "{x = [1]}", "{x = false}", "{X = 1}", "[1]"}) {
-    EXPECT_THAT(refusal("name = \"cup\"\n[[entry]]\nhouse = \"greedy\"\noptions = " +
-                        std::string(options) + "\n[[entry]]\nhouse = \"random\"\n"),
+    EXPECT_THAT(tournament_refusal("name = \"cup\"\n[[entry]]\nhouse = \"greedy\"\noptions = " +
+                                   std::string(options) + "\n[[entry]]\nhouse = \"random\"\n"),
                 HasSubstr("a table of the bot's options"))
         << options;
   }
