@@ -168,8 +168,14 @@ template <class Real>
     if (gap(from) <= Real(0)) {
       return from;
     }
-    if (gap(to) <= Real(0)) {
+    const Real end = gap(to);
+    if (end < Real(0)) {
       return bracketed_root<Real>(gap, slope, from, to);
+    }
+    // A gap that closes exactly as the piece ends: looked for, it would be found too early by as
+    // much as half the digits where the balls come to a halt as they touch.
+    if (end == Real(0)) {
+      return to;
     }
   }
   return std::nullopt;
@@ -202,7 +208,8 @@ template <class Real>
     }
     const Real step = -gap / slope;
     if (step <= Real(2) * std::numeric_limits<Real>::epsilon() * t) {
-      return t;
+      // What is left to fall until T may be rounding: then the gap there decides.
+      return -slope * (T - t) > graze ? t : search_contact(p, c, T);
     }
     t += step;
     if (t > T) {
@@ -212,12 +219,24 @@ template <class Real>
   return search_contact(p, c, T);
 }
 
+// Whether discs that touch approach so slowly that c1 has underflowed to nothing.
+template <class Real>
+[[nodiscard]] bool creeps_closer(const PairMotion<Real>& p) {
+  using std::abs;
+  const Real size = abs(p.velocity.x) > abs(p.velocity.y) ? abs(p.velocity.x) : abs(p.velocity.y);
+  return size > Real(0) &&
+         dot(p.distance, Vec2<Real>{p.velocity.x / size, p.velocity.y / size}) < Real(0);
+}
+
 // The first contact in [0, T].
 template <class Policy = Lean, class Real>
 [[nodiscard]] std::optional<Real> first_contact(const PairMotion<Real>& p, const Real& T) {
   constexpr bool rejects = Policy::omits(Omission::clear_pairs);
   const GapPolynomial<Real> c = gap_polynomial(p);
   if (!(c.c1 < Real(0))) {
+    if (c.c1 == Real(0) && c.c0 <= Real(0) && creeps_closer(p)) {
+      return Real(0);
+    }
     return rejects && never_approaches(c, T) ? std::nullopt : search_contact(p, c, T);
   }
   if (c.c0 <= Real(0)) {

@@ -8,6 +8,6 @@
 
 namespace poolhall::physics {
 
-inline constexpr std::string_view version = "physics-2";
+inline constexpr std::string_view version = "physics-3";
 
 }  // namespace poolhall::physics

@@ -2,7 +2,8 @@
 // and for `poolhall bench stability`.
 //
 //   for (const NamedScene& s : extreme_scenes()) {
-//     std::string found = s.judge(simulate(s.scene, s.options));  // "" when as expected
+//     Finding finding = s.judge(simulate(s.scene, s.options));
+//     if (!finding.as_expected) complain(s.name, s.expected, finding.found);
 //   }
 #pragma once
 
@@ -16,18 +17,23 @@ namespace poolhall::test_support {
 
 using Outcome = physics::Expected<physics::Simulation<double>>;
 
+struct Finding {
+  bool as_expected = false;
+  std::string found;  // in words, with the numbers that decided
+};
+
 struct NamedScene {
   std::string name;
   std::string expected;  // in words
   physics::Scene<double> scene;
   physics::SimulationOptions options;
-  std::function<std::string(const Outcome&)> judge;  // what is wrong, "" for nothing
+  std::function<Finding(const Outcome&)> judge;
 };
 
 [[nodiscard]] std::vector<NamedScene> extreme_scenes();
 
-// What every finished shot must hold: numbers finite, no two balls overlapping, none outside, the
-// energy not risen but by the separation speed. "" for nothing wrong.
+// What must hold after any shot: finite numbers, balls inside and apart, no energy out of nothing.
+// "" when it does.
 [[nodiscard]] std::string broken_invariant(const physics::Scene<double>& scene,
                                            const physics::Simulation<double>& result);
 

@@ -83,66 +83,6 @@ RC_GTEST_PROP(Simulation, HoldsItsInvariantsOnEveryTable, ()) {
   hold_invariants(any_break(seed, table, kind), contact);
 }
 
-Scene<double> mirrored_across(Scene<double> scene) {
-  const auto& given = scene.shot->given;
-  for (auto& ball : scene.balls) {
-    ball.position.x = scene.table.width - ball.position.x;
-  }
-  scene.shot = cue_shot_from_degrees(-given.a, given.b, given.theta, 180 - given.phi, given.v);
-  return scene;
-}
-
-// A mirrored coordinate rounds; that grows as any perturbation of an ulp does.
-double growth(const Scene<double>& scene, const Simulation<double>& result) {
-  Scene<double> moved = scene;
-  moved.balls[0].position.x += 1e-12;
-  const auto other = simulate(moved, {});
-  double most = 1;
-  if (other && other->events.size() == result.events.size()) {
-    for (std::size_t i = 0; i < scene.balls.count; ++i) {
-      most = std::max(most, length(other->balls[i].position - result.balls[i].position) / 1e-12);
-    }
-    return most;
-  }
-  return 1e9;
-}
-
-RC_GTEST_PROP(Simulation, OfAMirroredSceneIsTheMirroredSimulation, ()) {
-  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
-  const Scene<double> scene = scene_of(any_shot(seed));
-  const auto one = simulate(scene, {});
-  const auto other = simulate(mirrored_across(scene), {});
-  RC_ASSERT(one.has_value() && other.has_value());
-  const double amplification = growth(scene, *one);
-  RC_PRE(amplification < 1e8);
-  RC_ASSERT(one->events.size() == other->events.size());
-  for (std::size_t i = 0; i < scene.balls.count; ++i) {
-    const auto& p = one->balls[i];
-    const auto& q = other->balls[i];
-    RC_ASSERT(p.state == q.state);
-    RC_ASSERT(std::abs(scene.table.width - p.position.x - q.position.x) < 1e-14 * amplification);
-    RC_ASSERT(std::abs(p.position.y - q.position.y) < 1e-14 * amplification);
-  }
-}
-
-RC_GTEST_PROP(Simulation, DoesNotDependOnTheOrderInWhichTheBallsAreGiven, ()) {
-  const auto seed = *rc::gen::arbitrary<std::uint32_t>();
-  const Scene<double> scene = scene_of(any_shot(seed));
-  Scene<double> turned = scene;
-  const std::size_t n = scene.balls.count;
-  for (std::size_t i = 0; i < n; ++i) {
-    turned.balls[i] = scene.balls[n - 1 - i];
-  }
-  const auto one = simulate(scene, {});
-  const auto other = simulate(turned, {});
-  RC_ASSERT(one.has_value() && other.has_value());
-  RC_ASSERT(one->events.size() == other->events.size());
-  for (std::size_t i = 0; i < n; ++i) {
-    const Vec2<double> off = one->balls[i].position - other->balls[n - 1 - i].position;
-    RC_ASSERT(length(off) <= EventLoop<double>::drift_bound);
-  }
-}
-
 template <Omission omission>
 void expect_no_bit_changed(const Scene<double>& scene) {
   Recorder<double> all, without;
