@@ -193,6 +193,19 @@ Ping read_ping(const JsonNode& params) {
   return {RawJson{canonical_text(*t->value())}};
 }
 
+// The first of game, match and tournament that is there.
+Ack read_ack(const JsonNode& params) {
+  if (!params.find("game")) {
+    if (const auto match = params.find("match")) {
+      return {read_id<MatchId>(*match)};
+    }
+    if (const auto tournament = params.find("tournament")) {
+      return {read_id<TournamentId>(*tournament)};
+    }
+  }
+  return {read_id<GameId>(params.at("game"))};
+}
+
 Request read_params(Method method, const JsonNode& params, const Limits& limits) {
   switch (method) {
     case Method::hello:
@@ -222,7 +235,7 @@ Request read_params(Method method, const JsonNode& params, const Limits& limits)
     case Method::sync:
       return Sync{read_id<GameId>(params.at("game"))};
     case Method::ack:
-      return Ack{read_id<GameId>(params.at("game"))};
+      return read_ack(params);
     case Method::ping:
       return read_ping(params);
     case Method::lag:

@@ -95,7 +95,13 @@ void write(JsonWriter& out, const Sync& sync) {
   write_game(out, sync.game);
 }
 void write(JsonWriter& out, const Ack& ack) {
-  write_game(out, ack.game);
+  if (const auto* match = std::get_if<MatchId>(&ack.what)) {
+    out.key("match").integer(number(*match));
+  } else if (const auto* tournament = std::get_if<TournamentId>(&ack.what)) {
+    out.key("tournament").integer(number(*tournament));
+  } else {
+    write_game(out, std::get<GameId>(ack.what));
+  }
 }
 void write(JsonWriter& out, const Ping& ping) {
   out.key("t").raw(ping.t.text);

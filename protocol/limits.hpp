@@ -30,6 +30,7 @@ struct Limits {
   std::uint32_t connections_per_address = 32;
   std::uint32_t connections = 12'000;                  // in all; more get server_full
   std::chrono::milliseconds takeover_interval{1'000};  // between two logins with one token
+  std::size_t untold_ends = 256;  // of each kind, told again after a login; the latest
 
   // Queues.
   std::size_t output_queue_bytes = 4 * 1024 * 1024;

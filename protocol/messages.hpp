@@ -139,8 +139,10 @@ struct Concede {
 struct Sync {
   GameId game{};
 };
+// That the end of this is known and need not be told again.
+using Ended = std::variant<GameId, MatchId, TournamentId>;
 struct Ack {
-  GameId game{};
+  Ended what;
 };
 
 struct Ping {
@@ -467,9 +469,12 @@ struct DecideReply {
   Repetition repetition = Repetition::first_time;
 };
 
-// To `concede`, `ack`, `game.reveal`.
+// To `concede`, `game.reveal`.
 struct GameReply {
   GameId game{};
+};
+struct AckReply {
+  Ended what;
 };
 
 template <class Form>
@@ -489,7 +494,7 @@ struct EmptyReply {};
 
 template <class Form>
 using Reply = std::variant<EmptyReply, HelloReply, LoginReply, TournamentListReply, TournamentReply,
-                           ChallengeReply, ShotReply<Form>, DecideReply<Form>, GameReply,
+                           ChallengeReply, ShotReply<Form>, DecideReply<Form>, GameReply, AckReply,
                            SyncReply<Form>, PingReply>;
 
 }  // namespace poolhall::protocol

@@ -362,6 +362,16 @@ constexpr std::array<ReadNotification, notification_count> notification_readers{
     as_notification<read_tournament_over>, as_notification<read_superseded>,
     as_notification<read_lag_probe>,       as_notification<read_shutting_down>};
 
+AckReply read_ack_reply(const JsonNode& node) {
+  if (const auto match = node.find("match")) {
+    return {read_id<MatchId>(*match)};
+  }
+  if (const auto tournament = node.find("tournament")) {
+    return {read_id<TournamentId>(*tournament)};
+  }
+  return {read_id<GameId>(node.at("game"))};
+}
+
 }  // namespace
 
 Notification<Received> read_notification(std::size_t index, const JsonNode& params) {
@@ -388,8 +398,9 @@ Reply<Received> read_reply(Method method, const JsonNode& result) {
       return ShotReply<Received>{read_game_shot(result), read_repetition(result)};
     case Method::decide:
       return DecideReply<Received>{read_game_decision(result), read_repetition(result)};
-    case Method::concede:
     case Method::ack:
+      return read_ack_reply(result);
+    case Method::concede:
     case Method::game_reveal:
       return GameReply{read_id<GameId>(result.at("game"))};
     case Method::sync:

@@ -334,6 +334,16 @@ void write(JsonWriter& out, const GameReply& reply) {
   write_id(out, "game", reply.game);
 }
 
+void write(JsonWriter& out, const AckReply& reply) {
+  if (const auto* match = std::get_if<MatchId>(&reply.what)) {
+    write_id(out, "match", *match);
+  } else if (const auto* tournament = std::get_if<TournamentId>(&reply.what)) {
+    write_id(out, "tournament", *tournament);
+  } else {
+    write_id(out, "game", std::get<GameId>(reply.what));
+  }
+}
+
 template <class Part>
 void write_optional_part(JsonWriter& out, std::string_view key, const std::optional<Part>& part) {
   out.key(key);

@@ -367,6 +367,16 @@ std::optional<End> Agent::notified(const protocol::GameOver& over) {
   return std::nullopt;
 }
 
+std::optional<End> Agent::notified(const protocol::MatchOver& over) {
+  send(protocol::Ack{over.match}, {});
+  return std::nullopt;
+}
+
+std::optional<End> Agent::notified(const protocol::TournamentOver& over) {
+  send(protocol::Ack{over.tournament}, {});
+  return std::nullopt;
+}
+
 std::optional<End> Agent::notified(const protocol::ChallengeOffer& offer) {
   if (settings_.offers == OfferPolicy::accept) {
     send(protocol::ChallengeAccept{offer.challenge}, {});

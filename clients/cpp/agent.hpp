@@ -115,6 +115,8 @@ class Agent {
   [[nodiscard]] Result notified(const protocol::GameTurn<protocol::Received>& turn);
   [[nodiscard]] Result notified(const protocol::GameTurnLost<protocol::Received>& lost);
   [[nodiscard]] Result notified(const protocol::GameOver& over);
+  [[nodiscard]] Result notified(const protocol::MatchOver& over);
+  [[nodiscard]] Result notified(const protocol::TournamentOver& over);
   [[nodiscard]] Result notified(const protocol::ChallengeOffer& offer);
   [[nodiscard]] Result notified(const protocol::ChallengeOver& over);
   [[nodiscard]] Result notified(const protocol::LagProbe& probe);

@@ -29,6 +29,7 @@ Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
       settings_(std::move(settings)),
       deadlines_(io),
       connections_{settings_.limits, deadlines_},
+      untold_(archive, book_, settings_.limits),
       services_{io,
                 workers,
                 writer,
@@ -48,8 +49,14 @@ Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
                 },
                 [this](const storage::MatchRecord& match, const std::vector<GameOutcome>& games) {
                   tournaments_.match_over(match, games);
+                },
+                [this](const storage::MatchRecord& match,
+                       const std::vector<storage::GameRecord>& games) {
+                  untold_.match_over(
+                      match, games,
+                      match.tournament ? tournaments_.wire_id(*match.tournament) : std::nullopt);
                 }}),
-      tournaments_(services_, matches_, ids_,
+      tournaments_(services_, matches_, untold_, ids_,
                    [this](const std::string& name, const HousePlayer& player) -> Agent& {
                      return house_agent(name, player);
                    }),
@@ -89,7 +96,6 @@ storage::Expected<void> Arena::restore(storage::Reader& reader) {
       return tl::unexpected(played.error());
     }
     matches_.restore(match, *played);
-    challenges_.restore(match);
   }
   unfinished_ = std::move(*games);
   return {};
@@ -196,7 +202,7 @@ void Arena::handle(const Asker& asker, storage::AgentId agent, protocol::Request
     case Method::sync:
       return handle_game(asker, agent, request, read_at);
     case Method::ack:
-      return acknowledge(asker, agent, std::get<protocol::Ack>(request).game);
+      return acknowledge(asker, agent, std::get<protocol::Ack>(request).what);
     default:
       asker.refuse({ErrorCode::method_not_found, "/method",
                     fmt::format("got {}, which this server does not do", protocol::name(method))});
@@ -243,16 +249,22 @@ void Arena::handle_game(const Asker& asker, storage::AgentId agent, protocol::Re
   }
 }
 
-void Arena::acknowledge(const Asker& asker, storage::AgentId agent, protocol::GameId game) {
-  if (LiveGame* live = live_game(game); live != nullptr && live->seat_of(agent)) {
-    asker.refuse({ErrorCode::invalid_params, "/params/game",
-                  fmt::format("got {}, a game that goes on", number(game)), game});
-    return;
+void Arena::acknowledge(const Asker& asker, storage::AgentId agent, const protocol::Ended& what) {
+  if (const auto* game = std::get_if<protocol::GameId>(&what)) {
+    if (const LiveGame* live = live_game(*game); live != nullptr && live->seat_of(agent)) {
+      asker.refuse({ErrorCode::invalid_params, "/params/game",
+                    fmt::format("got {}, a game that goes on", number(*game)), *game});
+      return;
+    }
   }
-  if (const auto found = unacknowledged_.find(agent); found != unacknowledged_.end()) {
-    found->second.games.erase(game);
+  untold_.acknowledged(agent, what);
+  if (const auto* game = std::get_if<protocol::GameId>(&what)) {
+    finished_.acknowledge(asker, agent, *game);
+  } else if (const auto* match = std::get_if<protocol::MatchId>(&what)) {
+    finished_.acknowledge(asker, agent, *match);
+  } else {
+    tournaments_.acknowledge(asker, agent, std::get<protocol::TournamentId>(what));
   }
-  finished_.acknowledge(asker, agent, game);
 }
 
 void Arena::launch(std::shared_ptr<LiveGame> game) {
@@ -278,13 +290,11 @@ void Arena::game_over(LiveGame& game) {
   ++games_over_;
   for (const storage::AgentId agent : record.agents) {
     std::erase(games_of_[agent], record.id);
-    storage::GameRecord kept = record;
-    kept.initial_state.clear();  // only its end is told again
-    unacknowledged_[agent].games.emplace(record.id, std::move(kept));
     if (games_of_[agent].empty()) {
       bots_.release(agent);
     }
   }
+  untold_.game_over(record);
   matches_.game_over(game);
   games_.erase(number(record.id));  // whoever called holds it until the call is done
 }

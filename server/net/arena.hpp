@@ -26,6 +26,7 @@
 #include "server/net/matches.hpp"
 #include "server/net/session.hpp"
 #include "server/net/tournaments.hpp"
+#include "server/net/untold.hpp"
 
 namespace poolhall::net {
 
@@ -84,11 +85,6 @@ class Arena final : public Lobby {
   void ended(Session& session) override;
 
  private:
-  // Games over in this agent's sight that it has not acknowledged.
-  struct Unacknowledged {
-    bool read = false;  // from the database, where earlier runs of the server left theirs
-    std::map<protocol::GameId, storage::GameRecord> games;
-  };
   enum class Stage : std::uint8_t { running, stopping, told };
 
   // Joining: registration, login, takeover (arena_joining.cpp).
@@ -101,15 +97,13 @@ class Arena final : public Lobby {
             std::optional<protocol::Hex256> token);
   void catch_up(const std::shared_ptr<Session>& session, const Agent& agent);
   [[nodiscard]] protocol::LoginReply login_reply(const Agent& agent) const;
-  [[nodiscard]] protocol::GameListing listing_of(const storage::GameRecord& game,
-                                                 storage::AgentId agent) const;
   Agent& house_agent(const std::string& name, const HousePlayer& player);
   [[nodiscard]] std::optional<storage::AgentId> house_opponent(const std::string& bot);
 
   // Requests.
   void handle_game(const Asker& asker, storage::AgentId agent, protocol::Request& request,
                    SteadyTime read_at);
-  void acknowledge(const Asker& asker, storage::AgentId agent, protocol::GameId game);
+  void acknowledge(const Asker& asker, storage::AgentId agent, const protocol::Ended& what);
   [[nodiscard]] LiveGame* live_game(protocol::GameId game) const;
 
   // Games.
@@ -124,6 +118,7 @@ class Arena final : public Lobby {
   DeadlineQueue deadlines_;
   ConnectionContext connections_;
   AgentBook book_;
+  Untold untold_;
   storage::Counters ids_;
   GameServices services_;
   HouseBots bots_;
@@ -133,7 +128,6 @@ class Arena final : public Lobby {
   FinishedGames finished_;
   std::unordered_map<std::int64_t, std::shared_ptr<LiveGame>> games_;
   std::map<storage::AgentId, std::vector<protocol::GameId>> games_of_;
-  std::map<storage::AgentId, Unacknowledged> unacknowledged_;
   std::unordered_map<std::uint64_t, std::shared_ptr<Session>> sessions_;
   std::vector<storage::UnfinishedGame> unfinished_;          // until begin()
   std::map<storage::AgentId, std::uint64_t> house_choices_;  // when each was chosen last

@@ -91,7 +91,7 @@ void Arena::add_agent(const std::shared_ptr<Session>& session, const std::string
           return;
         }
         book_.find(id)->stored = true;
-        unacknowledged_[id].read = true;
+        untold_.is_new(id);
         let_in(session, id, protocol::Hex256{token});
         tournaments_.agent_enrolled();
       });
@@ -116,28 +116,17 @@ void Arena::let_in(const std::shared_ptr<Session>& session, storage::AgentId age
   Agent* known = book_.find(agent);
   if (!known->stored) {
     session->not_admitted({ErrorCode::rate_limited, "", "this agent is being stored; ask again"});
-    return;
-  }
-  if (unacknowledged_[agent].read) {
-    bind(session, *known, std::move(token));
     session->resume();
     return;
   }
-  finished_.unacknowledged(
-      agent, [this, session, agent, token = std::move(token)](
-                 const storage::Expected<std::vector<storage::GameRecord>>& games) {
-        if (!games) {
+  untold_.prepare(
+      agent, [this, session, agent, token = std::move(token)](const storage::Expected<void>& read) {
+        if (read) {
+          bind(session, *book_.find(agent), token);
+        } else {
           session->not_admitted(
-              {ErrorCode::internal, "", "the database cannot be read: " + games.error().reason});
-          session->resume();
-          return;
+              {ErrorCode::paused, "", "the database cannot be read: " + read.error().reason});
         }
-        Unacknowledged& open = unacknowledged_[agent];
-        open.read = true;
-        for (const storage::GameRecord& game : *games) {
-          open.games.emplace(game.id, game);
-        }
-        bind(session, *book_.find(agent), token);
         session->resume();
       });
 }
@@ -170,11 +159,7 @@ void Arena::bind(const std::shared_ptr<Session>& session, Agent& agent,
 protocol::LoginReply Arena::login_reply(const Agent& agent) const {
   protocol::LoginReply reply;
   reply.agent = agent.record.name;
-  if (const auto open = unacknowledged_.find(agent.id()); open != unacknowledged_.end()) {
-    for (const auto& [id, game] : open->second.games) {
-      reply.games.push_back(listing_of(game, agent.id()));
-    }
-  }
+  reply.games = untold_.listings(agent.id());
   if (const auto own = games_of_.find(agent.id()); own != games_of_.end()) {
     for (const protocol::GameId id : own->second) {
       const LiveGame* game = live_game(id);
@@ -184,25 +169,8 @@ protocol::LoginReply Arena::login_reply(const Agent& agent) const {
   return reply;
 }
 
-protocol::GameListing Arena::listing_of(const storage::GameRecord& game,
-                                        storage::AgentId agent) const {
-  const Seat seat = game.agents[0] == agent ? Seat::first : Seat::second;
-  protocol::GameListing listing;
-  listing.game = game.id;
-  listing.match = game.match;
-  listing.seat = seat;
-  listing.opponent = book_.name_of(game.agents[rules::index(rules::other(seat))]);
-  listing.status = protocol::GameStatus::over;
-  return listing;
-}
-
 void Arena::catch_up(const std::shared_ptr<Session>& session, const Agent& agent) {
-  const auto open = unacknowledged_.find(agent.id());
-  if (open != unacknowledged_.end()) {
-    for (const auto& [id, game] : open->second.games) {
-      session->push(over_of(game));
-    }
-  }
+  untold_.tell(*session, agent.id());
   const auto own = games_of_.find(agent.id());
   if (own != games_of_.end()) {
     const auto games = own->second;

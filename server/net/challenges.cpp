@@ -22,6 +22,17 @@ constexpr std::chrono::hours longest_clock{24};
 constexpr std::size_t games_bound = 256;  // of one agent at a time
 constexpr std::size_t offers_bound = 64;  // of one agent that wait for an answer
 
+Error other_content() {
+  return {ErrorCode::conflicting_request, "/params/challenge_id",
+          "the same challenge_id was sent with another content"};
+}
+
+// What a challenge can ask for; the rest of the terms is the server's.
+bool same_wish(const storage::TermsRecord& one, const storage::TermsRecord& other) {
+  return one.rules == other.rules && one.noise == other.noise && one.clock == other.clock &&
+         one.increment == other.increment && one.shot_cap == other.shot_cap;
+}
+
 std::string request_key(storage::AgentId from, const protocol::ShotId& id) {
   return fmt::format("{}:{}", storage::number(from), id.json);
 }
@@ -36,9 +47,32 @@ Challenges::Challenges(GameServices& services, Matches& matches, Outside outside
 
 void Challenges::challenge(const Asker& asker, storage::AgentId from,
                            const protocol::Challenge& request) {
-  if (request.challenge_id && repeats(asker, from, request)) {
+  if (!request.challenge_id) {
+    make(asker, from, request);
     return;
   }
+  if (repeats(asker, from, request)) {
+    return;
+  }
+  using Result = storage::Expected<std::optional<storage::MatchRecord>>;
+  services_.archive.read(
+      [key = request_key(from, *request.challenge_id)](storage::Reader& reader) {
+        return reader.match_requested(key);
+      },
+      [this, asker, from, request](const Result& found) {
+        if (!found) {
+          asker.refuse(
+              {ErrorCode::paused, "", "the database cannot be read: " + found.error().reason});
+        } else if (*found) {
+          repeats_match(asker, from, request, **found);
+        } else if (!repeats(asker, from, request)) {  // it may have come again meanwhile
+          make(asker, from, request);
+        }
+      });
+}
+
+void Challenges::make(const Asker& asker, storage::AgentId from,
+                      const protocol::Challenge& request) {
   const auto terms = terms_of_request(request);
   if (!terms) {
     asker.refuse(terms.error());
@@ -75,24 +109,38 @@ bool Challenges::repeats(const Asker& asker, storage::AgentId from,
                          const protocol::Challenge& request) {
   const auto found = by_key_.find({from, request.challenge_id->json});
   if (found == by_key_.end()) {
-    const auto before = restored_.find(request_key(from, *request.challenge_id));
-    if (before == restored_.end()) {
-      return false;
-    }
-    asker.reply(protocol::ChallengeReply{ChallengeId{0}, protocol::ChallengeStatus::accepted,
-                                         before->second});
-    return true;
+    return false;
   }
   Entry& entry = entries_.at(found->second);
   if (!(entry.request == request)) {
-    asker.refuse({ErrorCode::conflicting_request, "/params/challenge_id",
-                  "the same challenge_id was sent with another content"});
+    asker.refuse(other_content());
   } else if (entry.state == State::starting) {
     entry.askers.push_back(asker);
   } else {
     reply(asker, found->second, entry);
   }
   return true;
+}
+
+void Challenges::repeats_match(const Asker& asker, storage::AgentId from,
+                               const protocol::Challenge& request,
+                               const storage::MatchRecord& match) const {
+  const Agent* opponent = services_.book.find(match.agents[1]);
+  bool same_opponent = false;
+  if (request.opponent.starts_with(house_prefix)) {
+    same_opponent = opponent != nullptr &&
+                    opponent->record.house_bot == request.opponent.substr(house_prefix.size());
+  } else {
+    same_opponent = opponent != nullptr && opponent == services_.book.named(request.opponent);
+  }
+  const auto terms = terms_of_request(request);
+  if (match.agents[0] == from && same_opponent && terms && same_wish(*terms, match.terms)) {
+    asker.reply(
+        protocol::ChallengeReply{match.challenge.value_or(ChallengeId{protocol::number(match.id)}),
+                                 protocol::ChallengeStatus::accepted, match.id});
+  } else {
+    asker.refuse(other_content());
+  }
 }
 
 protocol::Expected<storage::TermsRecord> Challenges::terms_of_request(
@@ -230,6 +278,7 @@ void Challenges::begin(ChallengeId id, const Asker& asker) {
   plan.agents = {entry.from, entry.to};
   plan.terms = entry.terms;
   plan.seed = random_seed();
+  plan.challenge = id;
   if (entry.request.challenge_id) {
     plan.request = request_key(entry.from, *entry.request.challenge_id);
   }
@@ -285,12 +334,6 @@ void Challenges::agent_came(storage::AgentId agent) {
     if (entry.to == agent && entry.state == State::offered) {
       push(agent, offer_of(id, entry));
     }
-  }
-}
-
-void Challenges::restore(const storage::MatchRecord& match) {
-  if (match.request) {
-    restored_[*match.request] = match.id;
   }
 }
 

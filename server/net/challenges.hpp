@@ -1,5 +1,5 @@
 // Challenges: of the house at once, of another agent by offer and answer. Offers live in memory
-// only: they expire in a minute anyway.
+// only: they expire in a minute anyway. What became a match is known for as long as the database.
 //
 //   challenges.challenge(asker, agent, request);
 //   challenges.accept(asker, agent, request.challenge);
@@ -34,8 +34,6 @@ class Challenges {
   void decline(const Asker& asker, storage::AgentId by, protocol::ChallengeId challenge);
   // This agent has a new session: offers that wait for its answer.
   void agent_came(storage::AgentId agent);
-  // A match that was asked for before the server stopped.
-  void restore(const storage::MatchRecord& match);
 
  private:
   enum class State : std::uint8_t { offered, starting, accepted, declined, expired };
@@ -54,6 +52,10 @@ class Challenges {
 
   [[nodiscard]] bool repeats(const Asker& asker, storage::AgentId from,
                              const protocol::Challenge& request);
+  // Asked before, perhaps of an earlier run of the server; its match may be over.
+  void repeats_match(const Asker& asker, storage::AgentId from, const protocol::Challenge& request,
+                     const storage::MatchRecord& match) const;
+  void make(const Asker& asker, storage::AgentId from, const protocol::Challenge& request);
   [[nodiscard]] protocol::Expected<storage::TermsRecord> terms_of_request(
       const protocol::Challenge& request) const;
   [[nodiscard]] protocol::Expected<storage::AgentId> opponent_of(storage::AgentId from,
@@ -77,7 +79,6 @@ class Challenges {
   std::int64_t next_id_;
   std::map<protocol::ChallengeId, Entry> entries_;
   std::map<Key, protocol::ChallengeId> by_key_;
-  std::map<std::string, MatchId> restored_;  // by MatchRecord::request
 };
 
 }  // namespace poolhall::net

@@ -139,26 +139,47 @@ void FinishedGames::acknowledge(const Asker& asker, storage::AgentId agent, prot
       row.seal = match::seal(row);
       return database.update_game(row);
     };
-    const auto posted =
-        services_.writer.post(work, [asker, id](const storage::Expected<void>& stored) {
-          if (stored) {
-            asker.reply(protocol::GameReply{id});
-          } else {
-            asker.refuse({ErrorCode::internal, "", stored.error().reason, id});
-          }
-        });
-    if (posted != storage::Posted::accepted) {
-      asker.refuse({ErrorCode::paused, "", "the database takes nothing at the moment", id});
-    }
+    store_acknowledgement(asker, id, work);
   });
 }
 
-void FinishedGames::unacknowledged(
-    storage::AgentId agent,
-    std::function<void(storage::Expected<std::vector<storage::GameRecord>>)> then) {
+void FinishedGames::acknowledge(const Asker& asker, storage::AgentId agent, protocol::MatchId id) {
+  using Result = storage::Expected<std::optional<storage::MatchRecord>>;
   services_.archive.read(
-      [agent](storage::Reader& reader) { return reader.unacknowledged_by(agent); },
-      std::move(then));
+      [id](storage::Reader& reader) { return reader.match(id); },
+      [this, asker, agent, id](const Result& found) {
+        if (!found) {
+          asker.refuse({ErrorCode::paused, "", "the database cannot be read"});
+          return;
+        }
+        const auto& match = *found;
+        if (!match || (match->agents[0] != agent && match->agents[1] != agent)) {
+          asker.refuse({ErrorCode::invalid_params, "/params/match",
+                        fmt::format("got {}, which is none of your matches", number(id))});
+        } else if (!match->over) {
+          asker.refuse({ErrorCode::invalid_params, "/params/match",
+                        fmt::format("got {}, a match that goes on", number(id))});
+        } else {
+          store_acknowledgement(asker, id, [id, agent](storage::Database& database) {
+            return database.acknowledge_match(id, agent);
+          });
+        }
+      });
+}
+
+void FinishedGames::store_acknowledgement(const Asker& asker, const protocol::Ended& what,
+                                          storage::Writer::Work work) {
+  const auto posted =
+      services_.writer.post(std::move(work), [asker, what](const storage::Expected<void>& stored) {
+        if (stored) {
+          asker.reply(protocol::AckReply{what});
+        } else {
+          asker.refuse({ErrorCode::internal, "", stored.error().reason});
+        }
+      });
+  if (posted != storage::Posted::accepted) {
+    asker.refuse({ErrorCode::paused, "", "the database takes nothing at the moment"});
+  }
 }
 
 }  // namespace poolhall::net

@@ -1,7 +1,7 @@
 // Requests about games that are over: answered from the database, for as long as it is kept.
 //
 //   finished.sync(game, asker, agent);
-//   finished.greet(agent, session);      // what this agent has not acknowledged
+//   finished.acknowledge(asker, agent, game);
 #pragma once
 
 #include <functional>
@@ -28,11 +28,7 @@ class FinishedGames {
   void concede(const Asker& asker, storage::AgentId agent, protocol::GameId game);
   void sync(const Asker& asker, storage::AgentId agent, protocol::GameId game);
   void acknowledge(const Asker& asker, storage::AgentId agent, protocol::GameId game);
-
-  // The games whose end this agent has not acknowledged, oldest first.
-  void unacknowledged(
-      storage::AgentId agent,
-      std::function<void(storage::Expected<std::vector<storage::GameRecord>>)> then);
+  void acknowledge(const Asker& asker, storage::AgentId agent, protocol::MatchId match);
 
  private:
   struct Found {
@@ -45,6 +41,9 @@ class FinishedGames {
             std::optional<std::uint32_t> turn,
             std::function<void(const Found&, rules::Seat seat)> then);
   void reply_sync(const Asker& asker, const Found& found, rules::Seat seat) const;
+
+  void store_acknowledgement(const Asker& asker, const protocol::Ended& what,
+                             storage::Writer::Work work);
 
   GameServices& services_;
   TournamentOf tournament_of_;

@@ -44,6 +44,7 @@ void Matches::start(const MatchPlan& plan, Started started) {
   record.tournament = plan.tournament;
   record.pairing = plan.pairing;
   record.request = plan.request;
+  record.challenge = plan.challenge;
   record.agents = plan.agents;
   record.games = plan.games;
   record.terms = plan.terms;
@@ -243,39 +244,10 @@ void Matches::finish(LiveMatch& match) {
            storage::Database& database) { return database.finish_match(id, when); },
        [this, id] {
          const LiveMatch over = std::move(matches_.extract(id).mapped());
-         tell_over(over);
+         outside_.tell_over(over.record, over.games);
          outside_.on_match_over(over.record, outcomes(over));
        },
        fmt::format("the end of match {}", protocol::number(id)));
-}
-
-void Matches::tell_over(const LiveMatch& match) {
-  std::array<double, 2> points{};
-  for (const GameOutcome& outcome : outcomes(match)) {
-    if (outcome.winner) {
-      points[*outcome.winner] += 1;
-    } else {
-      points[0] += 0.5;
-      points[1] += 0.5;
-    }
-  }
-  protocol::MatchOver over;
-  over.match = match.record.id;
-  if (match.record.tournament) {
-    over.tournament = outside_.wire_id(*match.record.tournament);
-  }
-  for (const storage::GameRecord& game : match.games) {
-    over.seeds.push_back(seeds_of(game));
-  }
-  for (const std::size_t own : {0U, 1U}) {
-    over.opponent = services_.book.name_of(match.record.agents[1 - own]);
-    over.own_points = points[own];
-    over.opponent_points = points[1 - own];
-    const Agent* agent = services_.book.find(match.record.agents[own]);
-    if (const auto session = agent != nullptr ? agent->session.lock() : nullptr) {
-      session->push(over);
-    }
-  }
 }
 
 // Goes on trying while the database takes nothing.
@@ -316,15 +288,6 @@ std::vector<MatchOutcome> Matches::unfinished(const std::string& tournament) con
     }
   }
   return unfinished;
-}
-
-std::optional<MatchId> Matches::find_request(const std::string& request) const {
-  for (const auto& [id, match] : matches_) {
-    if (match.record.request == request) {
-      return id;
-    }
-  }
-  return std::nullopt;
 }
 
 std::vector<MatchId> Matches::challenges() const {

@@ -27,6 +27,7 @@ struct MatchPlan {
   std::optional<std::string> tournament{};
   std::optional<std::uint32_t> pairing{};
   std::optional<std::string> request{};  // what a challenge was asked with
+  std::optional<protocol::ChallengeId> challenge{};
   bool mirrored = false;
 };
 
@@ -37,6 +38,9 @@ class Matches {
     std::function<std::optional<protocol::TournamentId>(const std::string&)> wire_id;
     std::function<void(const storage::MatchRecord&, const GameOutcome&)> on_game_over;
     std::function<void(const storage::MatchRecord&, const std::vector<GameOutcome>&)> on_match_over;
+    // Its end is stored: its agents are to be told, with all its games, void ones too.
+    std::function<void(const storage::MatchRecord&, const std::vector<storage::GameRecord>&)>
+        tell_over;
   };
   using Started = std::function<void(const protocol::Expected<MatchId>&)>;
 
@@ -56,7 +60,6 @@ class Matches {
                                             std::uint32_t pairing) const;
   // Of a tournament, those that go on, with the games scored so far.
   [[nodiscard]] std::vector<MatchOutcome> unfinished(const std::string& tournament) const;
-  [[nodiscard]] std::optional<MatchId> find_request(const std::string& request) const;
   [[nodiscard]] std::size_t size() const { return matches_.size(); }
   // Restored matches without a tournament: nobody else would start their next game.
   [[nodiscard]] std::vector<MatchId> challenges() const;
@@ -79,7 +82,6 @@ class Matches {
                                                                          std::uint32_t number);
   void begin_next(LiveMatch& match);
   void finish(LiveMatch& match);
-  void tell_over(const LiveMatch& match);
   void launch(const storage::UnfinishedGame& game, const storage::MatchRecord& match, Start start);
   void post(storage::Writer::Work work, std::function<void()> then, std::string what);
 

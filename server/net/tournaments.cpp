@@ -37,9 +37,13 @@ storage::TermsRecord record_of(const GameTerms& terms, const protocol::Limits& l
 
 }  // namespace
 
-Tournaments::Tournaments(GameServices& services, Matches& matches, storage::Counters& ids,
-                         House house)
-    : services_(services), matches_(matches), ids_(ids), house_(std::move(house)) {}
+Tournaments::Tournaments(GameServices& services, Matches& matches, Untold& untold,
+                         storage::Counters& ids, House house)
+    : services_(services),
+      matches_(matches),
+      untold_(untold),
+      ids_(ids),
+      house_(std::move(house)) {}
 
 storage::Expected<void> Tournaments::restore(storage::Reader& reader) {
   const auto records = reader.tournaments();

@@ -15,6 +15,7 @@
 #include "server/net/house_bots.hpp"
 #include "server/net/match_host.hpp"
 #include "server/net/matches.hpp"
+#include "server/net/untold.hpp"
 
 namespace poolhall::net {
 
@@ -23,7 +24,8 @@ class Tournaments final : public MatchHost {
   // Makes an agent of the house known, or finds it.
   using House = std::function<Agent&(const std::string& name, const HousePlayer& player)>;
 
-  Tournaments(GameServices& services, Matches& matches, storage::Counters& ids, House house);
+  Tournaments(GameServices& services, Matches& matches, Untold& untold, storage::Counters& ids,
+              House house);
 
   // At the start, before anything else.
   [[nodiscard]] storage::Expected<void> restore(storage::Reader& reader);
@@ -53,6 +55,8 @@ class Tournaments final : public MatchHost {
   void list(const Asker& asker) const;
   void join(const Asker& asker, storage::AgentId agent, protocol::TournamentId tournament);
   void leave(const Asker& asker, storage::AgentId agent, protocol::TournamentId tournament);
+  // That the end of a tournament is known.
+  void acknowledge(const Asker& asker, storage::AgentId agent, protocol::TournamentId tournament);
   // An agent is new: entries and matches that wait for it go on.
   void agent_enrolled();
 
@@ -81,6 +85,7 @@ class Tournaments final : public MatchHost {
 
   GameServices& services_;
   Matches& matches_;
+  Untold& untold_;
   storage::Counters& ids_;
   House house_;
   std::map<std::string, Tournament> tournaments_;

@@ -1,5 +1,6 @@
 // The part of Tournaments that agents talk to.
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <utility>
@@ -147,12 +148,57 @@ void Tournaments::announce_end(const std::string& tournament,
   if (found == tournaments_.end()) {
     return;
   }
-  const protocol::TournamentOver over{found->second.record.wire_id, tournament, standings};
+  std::vector<storage::AgentId> agents;
   for (const Entered& entry : found->second.entered) {
-    const Agent* agent = services_.book.find(entry.agent);
-    if (const auto session = agent != nullptr ? agent->session.lock() : nullptr) {
-      session->push(over);
-    }
+    agents.push_back(entry.agent);
+  }
+  std::vector<storage::FinalStanding> rows;
+  for (const protocol::StandingRow& row : standings) {
+    rows.push_back({row.rank, row.agent, row.points, row.games, row.wins, row.losses, row.draws});
+  }
+  const protocol::TournamentOver over{found->second.record.wire_id, tournament, standings};
+  const auto posted = services_.writer.post(
+      [tournament, rows](storage::Database& database) {
+        return database.finish_tournament(tournament, rows);
+      },
+      [this, agents, over](const storage::Expected<void>& stored) {
+        if (stored) {
+          untold_.tournament_over(agents, over);
+        } else {
+          spdlog::error("the end of tournament {} cannot be stored: {}", over.name,
+                        stored.error().reason);
+        }
+      });
+  if (posted != storage::Posted::accepted) {
+    spdlog::error("the end of tournament {} cannot be stored: the database takes nothing",
+                  tournament);
+  }
+}
+
+void Tournaments::acknowledge(const Asker& asker, storage::AgentId agent,
+                              protocol::TournamentId id) {
+  const Tournament* tournament = find(asker, id);
+  if (tournament == nullptr) {
+    return;
+  }
+  if (tournament->record.status != TournamentStatus::finished) {
+    asker.refuse({ErrorCode::invalid_params, "/params/tournament",
+                  fmt::format("got {}, a tournament that is not over", number(id))});
+    return;
+  }
+  const auto posted = services_.writer.post(
+      [name = tournament->record.id, agent](storage::Database& database) {
+        return database.acknowledge_tournament(name, agent);
+      },
+      [asker, id](const storage::Expected<void>& stored) {
+        if (stored) {
+          asker.reply(protocol::AckReply{id});
+        } else {
+          asker.refuse({ErrorCode::internal, "", stored.error().reason});
+        }
+      });
+  if (posted != storage::Posted::accepted) {
+    asker.refuse({ErrorCode::paused, "", "the database takes nothing at the moment"});
   }
 }
 

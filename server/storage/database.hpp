@@ -54,8 +54,19 @@ class Reader {
 
   [[nodiscard]] virtual Expected<std::optional<GameRecord>> game(GameId id) = 0;
   [[nodiscard]] virtual Expected<std::vector<GameRecord>> games_of(MatchId match) = 0;
-  // Over, and not acknowledged by this agent.
-  [[nodiscard]] virtual Expected<std::vector<GameRecord>> unacknowledged_by(AgentId agent) = 0;
+  // The match that a challenge was answered with.
+  [[nodiscard]] virtual Expected<std::optional<MatchRecord>> match_requested(
+      std::string_view request) = 0;
+  // Over, and not acknowledged by this agent: the latest, oldest first.
+  [[nodiscard]] virtual Expected<std::vector<GameRecord>> unacknowledged_by(AgentId agent,
+                                                                            std::size_t most) = 0;
+  [[nodiscard]] virtual Expected<std::vector<MatchRecord>> untold_matches(AgentId agent,
+                                                                          std::size_t most) = 0;
+  [[nodiscard]] virtual Expected<std::vector<TournamentRecord>> untold_tournaments(
+      AgentId agent, std::size_t most) = 0;
+  // How the tournament ended, best first; empty before.
+  [[nodiscard]] virtual Expected<std::vector<FinalStanding>> final_standings(
+      std::string_view tournament) = 0;
   [[nodiscard]] virtual Expected<std::vector<UnfinishedGame>> unfinished_games() = 0;
   // Every game's id, ascending.
   [[nodiscard]] virtual Expected<std::vector<GameId>> game_ids() = 0;
@@ -82,6 +93,7 @@ class Database : public Reader {
 
   // Adding what is there already is a conflict, and so is updating what is not.
   [[nodiscard]] virtual Expected<void> add_agent(const AgentRecord& agent) = 0;
+  [[nodiscard]] virtual Expected<void> set_agent_token(AgentId agent, const Digest& token_hash) = 0;
   [[nodiscard]] virtual Expected<void> add_tournament(const TournamentRecord& tournament) = 0;
   [[nodiscard]] virtual Expected<void> set_tournament_status(std::string_view tournament,
                                                              TournamentStatus status) = 0;
@@ -89,7 +101,15 @@ class Database : public Reader {
   [[nodiscard]] virtual Expected<void> withdraw_entry(std::string_view tournament,
                                                       AgentId agent) = 0;
   [[nodiscard]] virtual Expected<void> add_match(const MatchRecord& match) = 0;
+  // From then on both agents have to be told, until they acknowledge it.
   [[nodiscard]] virtual Expected<void> finish_match(MatchId match, UnixMicros when) = 0;
+  // Likewise all that entered. Given again, the later table counts.
+  [[nodiscard]] virtual Expected<void> finish_tournament(
+      std::string_view tournament, const std::vector<FinalStanding>& standings) = 0;
+  // Acknowledging what was acknowledged, or was not to be told, changes nothing.
+  [[nodiscard]] virtual Expected<void> acknowledge_match(MatchId match, AgentId agent) = 0;
+  [[nodiscard]] virtual Expected<void> acknowledge_tournament(std::string_view tournament,
+                                                              AgentId agent) = 0;
   [[nodiscard]] virtual Expected<void> add_game(const GameRecord& game) = 0;
   // Stores again what grows with a game; the rest of `game` must be as it was added.
   [[nodiscard]] virtual Expected<void> update_game(const GameRecord& game) = 0;

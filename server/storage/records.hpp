@@ -113,6 +113,7 @@ struct MatchRecord {
   bool over = false;
   UnixMicros created{};
   std::optional<UnixMicros> finished{};
+  std::optional<protocol::ChallengeId> challenge{};  // by which its agents called it
 
   friend bool operator==(const MatchRecord&, const MatchRecord&) = default;
 };
@@ -202,6 +203,19 @@ struct TurnRecord {
   Digest checksum{};  // match::chained over the row before and this
 
   friend bool operator==(const TurnRecord&, const TurnRecord&) = default;
+};
+
+// A line of a tournament's final table.
+struct FinalStanding {
+  std::uint32_t rank = 1;
+  std::string agent;
+  double points = 0;
+  std::uint32_t games = 0;
+  std::uint32_t wins = 0;
+  std::uint32_t losses = 0;
+  std::uint32_t draws = 0;
+
+  friend bool operator==(const FinalStanding&, const FinalStanding&) = default;
 };
 
 // The next free ids; the server that owns the file counts on from here.

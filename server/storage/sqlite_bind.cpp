@@ -102,7 +102,9 @@ Binder& Binder::operator<<(const MatchRecord& match) {
         << std::int64_t{match.games};
   put(match.terms);
   return *this << static_cast<std::int64_t>(match.seed) << std::int64_t{match.mirrored}
-               << std::int64_t{match.over} << match.created << match.finished;
+               << std::int64_t{match.over} << match.created << match.finished
+               << (match.challenge ? std::optional{protocol::number(*match.challenge)}
+                                   : std::nullopt);
 }
 
 Binder& Binder::operator<<(const GameRecord& game) {

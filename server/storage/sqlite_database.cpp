@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <utility>
 
 #include "server/storage/file_lock.hpp"
@@ -15,6 +16,12 @@ using Connection = SqliteConnection;
 
 std::string select(std::string_view columns, std::string_view rest) {
   return "SELECT " + std::string(columns) + " FROM " + std::string(rest);
+}
+
+template <class Record>
+std::vector<Record> reversed(std::vector<Record>&& rows) {
+  std::reverse(rows.begin(), rows.end());
+  return std::move(rows);
 }
 
 // Serves as a Reader too: on a connection that may only read.
@@ -35,7 +42,12 @@ class SqliteDatabase final : public Database {
   Expected<std::vector<MatchRecord>> unfinished_matches() override;
   Expected<std::optional<GameRecord>> game(GameId id) override;
   Expected<std::vector<GameRecord>> games_of(MatchId match) override;
-  Expected<std::vector<GameRecord>> unacknowledged_by(AgentId agent) override;
+  Expected<std::optional<MatchRecord>> match_requested(std::string_view request) override;
+  Expected<std::vector<GameRecord>> unacknowledged_by(AgentId agent, std::size_t most) override;
+  Expected<std::vector<MatchRecord>> untold_matches(AgentId agent, std::size_t most) override;
+  Expected<std::vector<TournamentRecord>> untold_tournaments(AgentId agent,
+                                                             std::size_t most) override;
+  Expected<std::vector<FinalStanding>> final_standings(std::string_view tournament) override;
   Expected<std::vector<UnfinishedGame>> unfinished_games() override;
   Expected<std::vector<GameId>> game_ids() override;
   Expected<std::optional<TurnRecord>> turn(GameId game, std::uint32_t number) override;
@@ -48,6 +60,7 @@ class SqliteDatabase final : public Database {
   Expected<void> commit() override;
   void rollback() override;
   Expected<void> add_agent(const AgentRecord& agent) override;
+  Expected<void> set_agent_token(AgentId agent, const Digest& token_hash) override;
   Expected<void> add_tournament(const TournamentRecord& tournament) override;
   Expected<void> set_tournament_status(std::string_view tournament,
                                        TournamentStatus status) override;
@@ -55,6 +68,10 @@ class SqliteDatabase final : public Database {
   Expected<void> withdraw_entry(std::string_view tournament, AgentId agent) override;
   Expected<void> add_match(const MatchRecord& match) override;
   Expected<void> finish_match(MatchId match, UnixMicros when) override;
+  Expected<void> finish_tournament(std::string_view tournament,
+                                   const std::vector<FinalStanding>& standings) override;
+  Expected<void> acknowledge_match(MatchId match, AgentId agent) override;
+  Expected<void> acknowledge_tournament(std::string_view tournament, AgentId agent) override;
   Expected<void> add_game(const GameRecord& game) override;
   Expected<void> update_game(const GameRecord& game) override;
   Expected<void> append_turn(const TurnRecord& turn) override;
@@ -89,6 +106,17 @@ class SqliteDatabase final : public Database {
     return connection_->guarded([&] {
       auto use = connection_->prepared(sql);
       Binder(*use) << record;
+      use->exec();
+    });
+  }
+
+  // A change of any number of rows.
+  template <class... Values>
+  Expected<void> run(const std::string& sql, const Values&... values) {
+    return connection_->guarded([&] {
+      auto use = connection_->prepared(sql);
+      Binder binder(*use);
+      (binder << ... << values);
       use->exec();
     });
   }
@@ -189,11 +217,38 @@ Expected<std::vector<GameRecord>> SqliteDatabase::games_of(MatchId match) {
              number(match));
 }
 
-Expected<std::vector<GameRecord>> SqliteDatabase::unacknowledged_by(AgentId agent) {
+Expected<std::optional<MatchRecord>> SqliteDatabase::match_requested(std::string_view request) {
+  return one(select(match_columns, "matches WHERE request=?"), &Columns::match, request);
+}
+
+Expected<std::vector<GameRecord>> SqliteDatabase::unacknowledged_by(AgentId agent,
+                                                                    std::size_t most) {
   return all(select(game_columns,
                     "games WHERE over=1 AND ((first_agent=?1 AND first_acknowledged=0) OR "
-                    "(second_agent=?1 AND second_acknowledged=0)) ORDER BY id"),
-             &Columns::game, number(agent));
+                    "(second_agent=?1 AND second_acknowledged=0)) ORDER BY id DESC LIMIT ?2"),
+             &Columns::game, number(agent), static_cast<std::int64_t>(most))
+      .map(reversed<GameRecord>);
+}
+
+Expected<std::vector<MatchRecord>> SqliteDatabase::untold_matches(AgentId agent, std::size_t most) {
+  return all(select(match_columns,
+                    "matches WHERE id IN (SELECT match FROM untold_matches WHERE agent=? "
+                    "ORDER BY match DESC LIMIT ?) ORDER BY id"),
+             &Columns::match, number(agent), static_cast<std::int64_t>(most));
+}
+
+Expected<std::vector<TournamentRecord>> SqliteDatabase::untold_tournaments(AgentId agent,
+                                                                           std::size_t most) {
+  return all(select(tournament_columns,
+                    "tournaments WHERE id IN (SELECT tournament FROM untold_tournaments "
+                    "WHERE agent=?) ORDER BY wire_id DESC LIMIT ?"),
+             &Columns::tournament, number(agent), static_cast<std::int64_t>(most))
+      .map(reversed<TournamentRecord>);
+}
+
+Expected<std::vector<FinalStanding>> SqliteDatabase::final_standings(std::string_view tournament) {
+  return all(select(standing_columns, "final_standings WHERE tournament=? ORDER BY place"),
+             &Columns::final_standing, tournament);
 }
 
 Expected<std::vector<UnfinishedGame>> SqliteDatabase::unfinished_games() {
@@ -296,6 +351,10 @@ Expected<void> SqliteDatabase::add_agent(const AgentRecord& agent) {
   return insert(insert_sql("agents", agent_columns), agent);
 }
 
+Expected<void> SqliteDatabase::set_agent_token(AgentId agent, const Digest& token_hash) {
+  return change("UPDATE agents SET token_hash=? WHERE id=?", token_hash, number(agent));
+}
+
 Expected<void> SqliteDatabase::add_tournament(const TournamentRecord& tournament) {
   return insert(insert_sql("tournaments", tournament_columns), tournament);
 }
@@ -328,7 +387,42 @@ Expected<void> SqliteDatabase::add_match(const MatchRecord& match) {
 }
 
 Expected<void> SqliteDatabase::finish_match(MatchId match, UnixMicros when) {
-  return change("UPDATE matches SET over=1, finished=? WHERE id=?", when, number(match));
+  auto finished = change("UPDATE matches SET over=1, finished=? WHERE id=?", when, number(match));
+  if (!finished)
+    return finished;
+  return run(
+      "INSERT OR IGNORE INTO untold_matches(agent, match) "
+      "SELECT first_agent, id FROM matches WHERE id=?1 "
+      "UNION SELECT second_agent, id FROM matches WHERE id=?1",
+      number(match));
+}
+
+Expected<void> SqliteDatabase::finish_tournament(std::string_view tournament,
+                                                 const std::vector<FinalStanding>& standings) {
+  auto done = run("DELETE FROM final_standings WHERE tournament=?", tournament);
+  std::int64_t place = 0;
+  for (const FinalStanding& row : standings) {
+    if (done)
+      done = run(insert_sql("final_standings", "tournament,place," + std::string(standing_columns)),
+                 tournament, place++, std::int64_t{row.rank}, row.agent, row.points,
+                 std::int64_t{row.games}, std::int64_t{row.wins}, std::int64_t{row.losses},
+                 std::int64_t{row.draws});
+  }
+  if (!done)
+    return done;
+  return run(
+      "INSERT OR IGNORE INTO untold_tournaments(agent, tournament) "
+      "SELECT agent, tournament FROM entries WHERE tournament=?",
+      tournament);
+}
+
+Expected<void> SqliteDatabase::acknowledge_match(MatchId match, AgentId agent) {
+  return run("DELETE FROM untold_matches WHERE agent=? AND match=?", number(agent), number(match));
+}
+
+Expected<void> SqliteDatabase::acknowledge_tournament(std::string_view tournament, AgentId agent) {
+  return run("DELETE FROM untold_tournaments WHERE agent=? AND tournament=?", number(agent),
+             tournament);
 }
 
 Expected<void> SqliteDatabase::add_game(const GameRecord& game) {

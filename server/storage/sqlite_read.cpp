@@ -170,7 +170,21 @@ MatchRecord Columns::match() {
   match.created = date();
   if (!skip_null())
     match.finished = date();
+  if (!skip_null())
+    match.challenge = protocol::ChallengeId{integer()};
   return match;
+}
+
+FinalStanding Columns::final_standing() {
+  FinalStanding standing;
+  standing.rank = count();
+  standing.agent = text();
+  standing.points = real();
+  standing.games = count();
+  standing.wins = count();
+  standing.losses = count();
+  standing.draws = count();
+  return standing;
 }
 
 GameRecord Columns::game() {

@@ -31,7 +31,8 @@ inline constexpr std::string_view entry_columns =
 inline constexpr std::string_view match_columns =
     "id,tournament,pairing,request,first_agent,second_agent,games,rules,table_name,materials,noise,"
     "noise_hidden,rack_gap,rack_jitter,clock_us,increment_us,shot_cap_us,max_refusals,"
-    "lag_per_turn_us,lag_per_game_us,seed,mirrored,over,created,finished";
+    "lag_per_turn_us,lag_per_game_us,seed,mirrored,over,created,finished,challenge";
+inline constexpr std::string_view standing_columns = "rank,agent,points,games,wins,losses,draws";
 inline constexpr std::string_view game_columns =
     "id,match,number,attempt,first_agent,second_agent,rules,table_name,materials,noise,"
     "noise_hidden,rack_gap,rack_jitter,clock_us,increment_us,shot_cap_us,max_refusals,"
@@ -107,6 +108,7 @@ class Columns {
   [[nodiscard]] TournamentRecord tournament();
   [[nodiscard]] EntryRecord entry();
   [[nodiscard]] MatchRecord match();
+  [[nodiscard]] FinalStanding final_standing();
   [[nodiscard]] GameRecord game();
   [[nodiscard]] TurnRecord turn();
 

@@ -167,7 +167,38 @@ CREATE TABLE turns(
 ) STRICT;
 )sql";
 
-constexpr std::array<std::string_view, 1> all{first};
+// Ends that agents have not acknowledged, and how tournaments ended. What ended before this schema
+// counts as told.
+constexpr std::string_view second = R"sql(
+ALTER TABLE matches ADD COLUMN challenge INTEGER;
+
+CREATE TABLE untold_matches(
+  agent INTEGER NOT NULL REFERENCES agents,
+  match INTEGER NOT NULL REFERENCES matches,
+  PRIMARY KEY(agent, match)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE untold_tournaments(
+  agent INTEGER NOT NULL REFERENCES agents,
+  tournament TEXT NOT NULL REFERENCES tournaments,
+  PRIMARY KEY(agent, tournament)
+) STRICT, WITHOUT ROWID;
+
+CREATE TABLE final_standings(
+  tournament TEXT NOT NULL REFERENCES tournaments,
+  place INTEGER NOT NULL,
+  rank INTEGER NOT NULL,
+  agent TEXT NOT NULL,
+  points REAL NOT NULL,
+  games INTEGER NOT NULL,
+  wins INTEGER NOT NULL,
+  losses INTEGER NOT NULL,
+  draws INTEGER NOT NULL,
+  PRIMARY KEY(tournament, place)
+) STRICT, WITHOUT ROWID;
+)sql";
+
+constexpr std::array<std::string_view, 2> all{first, second};
 
 }  // namespace
 

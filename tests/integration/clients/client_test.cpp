@@ -113,8 +113,8 @@ TEST_F(ClientTest, PlaysAGameToItsEnd) {
   peer.notify(test_support::scripted_turn(GameId{17}, 1));
   EXPECT_EQ(peer.expect<protocol::Shot>().turn, 1U);
   peer.notify(test_support::scripted_over(GameId{17}));
-  EXPECT_EQ(peer.expect<protocol::Ack>().game, GameId{17});
-  peer.reply(protocol::GameReply{GameId{17}});
+  EXPECT_EQ(peer.expect<protocol::Ack>().what, protocol::Ended{GameId{17}});
+  peer.reply(protocol::AckReply{GameId{17}});
   EXPECT_EQ(end_.get().ending, Ending::finished);
 }
 

@@ -44,7 +44,7 @@ TEST_F(Game, IsPlayedToItsEndAndToldToBoth) {
   EXPECT_EQ(told_anna.checksum, told_bert.checksum);
   EXPECT_EQ(anna.wait_for<protocol::MatchOver>().seeds.size(), 1U);
   EXPECT_EQ(bert.wait_for<protocol::MatchOver>().opponent, "anna");
-  static_cast<void>(anna.call<protocol::GameReply>(protocol::Ack{game}));
+  static_cast<void>(anna.call<protocol::AckReply>(protocol::Ack{game}));
 }
 
 TEST_F(Game, ShowsTheOpponentWhatTheShooterIsTold) {
@@ -196,7 +196,7 @@ TEST_F(Game, TellsWhoWasAwayAtItsEndUntilItIsAcknowledged) {
   const auto sync = again.call<protocol::SyncReply<Received>>(protocol::Sync{game});
   ASSERT_TRUE(sync.over);
   EXPECT_EQ(sync.over->winner, Seat::first);
-  static_cast<void>(again.call<protocol::GameReply>(protocol::Ack{game}));
+  static_cast<void>(again.call<protocol::AckReply>(protocol::Ack{game}));
   again.close();
 
   WireClient third{server_.port()};

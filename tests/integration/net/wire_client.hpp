@@ -65,6 +65,16 @@ class WireClient {
       }
     }
   }
+  // How many notifications of this kind have come and were not waited for. What was pushed before
+  // a request was read has come when its reply has.
+  template <class Kind>
+  [[nodiscard]] std::size_t kept() const {
+    std::size_t count = 0;
+    for (const protocol::NotificationMessage& message : notifications_) {
+      count += std::holds_alternative<Kind>(message.notification) ? 1 : 0;
+    }
+    return count;
+  }
   [[nodiscard]] protocol::NotificationMessage next_notification();
   // A notification or an error without an id; nothing at the end of the stream.
   [[nodiscard]] std::optional<protocol::ServerMessage> next_message();

@@ -178,8 +178,9 @@ TEST_P(DatabaseConformance, lists_a_finished_game_for_each_agent_until_it_acknow
   game.finished = UnixMicros{99};
   in_transaction([&] { return database_->update_game(game); });
   EXPECT_EQ(database_->game(GameId{1}).value(), game);
-  EXPECT_THAT(database_->unacknowledged_by(AgentId{1}).value(), ElementsAre(game));
-  EXPECT_THAT(database_->unacknowledged_by(AgentId{2}).value(), IsEmpty());
+  EXPECT_THAT(database_->unacknowledged_by(AgentId{1}, 9).value(), ElementsAre(game));
+  EXPECT_THAT(database_->unacknowledged_by(AgentId{1}, 0).value(), IsEmpty());
+  EXPECT_THAT(database_->unacknowledged_by(AgentId{2}, 9).value(), IsEmpty());
   EXPECT_EQ(database_->unfinished_games().value().size(), 1U);
 }
 
@@ -191,6 +192,56 @@ TEST_P(DatabaseConformance, finishes_matches_and_lists_the_others) {
   ASSERT_EQ(matches.size(), 1U);
   EXPECT_TRUE(matches[0].over);
   EXPECT_EQ(matches[0].finished, UnixMicros{77});
+}
+
+TEST_P(DatabaseConformance, lists_the_latest_finished_matches_until_each_agent_acknowledged) {
+  MatchRecord later = sample_match(2);
+  later.pairing = 4;
+  later.request.reset();
+  in_transaction([&] { return database_->add_match(later); });
+  EXPECT_THAT(database_->untold_matches(AgentId{1}, 9).value(), IsEmpty());
+  in_transaction([&] { return database_->finish_match(MatchId{1}, UnixMicros{77}); });
+  in_transaction([&] { return database_->finish_match(MatchId{2}, UnixMicros{78}); });
+  in_transaction([&] { return database_->acknowledge_match(MatchId{1}, AgentId{2}); });
+  const auto ids = [&](AgentId agent, std::size_t most) {
+    std::vector<MatchId> found;
+    for (const MatchRecord& match : database_->untold_matches(agent, most).value())
+      found.push_back(match.id);
+    return found;
+  };
+  EXPECT_THAT(ids(AgentId{1}, 9), ElementsAre(MatchId{1}, MatchId{2}));
+  EXPECT_THAT(ids(AgentId{1}, 1), ElementsAre(MatchId{2}));
+  EXPECT_THAT(ids(AgentId{2}, 9), ElementsAre(MatchId{2}));
+}
+
+TEST_P(DatabaseConformance, finds_the_match_that_a_challenge_asked_for) {
+  EXPECT_EQ(database_->match_requested("\"again\"").value(), sample_match(1));
+  EXPECT_EQ(database_->match_requested("\"never\"").value(), std::nullopt);
+}
+
+TEST_P(DatabaseConformance, keeps_the_last_final_table_and_whom_to_tell_it) {
+  const FinalStanding anna{1, "Anna", 2.5, 4, 2, 1, 1};
+  const FinalStanding bob{2, "Bob", 1.5, 4, 1, 2, 1};
+  for (const std::int64_t agent : {1, 2}) {
+    in_transaction([&] {
+      return database_->add_entry({.tournament = "demo",
+                                   .agent = AgentId{agent},
+                                   .place = static_cast<std::uint32_t>(agent)});
+    });
+  }
+  EXPECT_THAT(database_->final_standings("demo").value(), IsEmpty());
+  in_transaction([&] { return database_->finish_tournament("demo", {bob, anna}); });
+  in_transaction([&] { return database_->finish_tournament("demo", {anna, bob}); });
+  EXPECT_THAT(database_->final_standings("demo").value(), ElementsAre(anna, bob));
+  in_transaction([&] { return database_->acknowledge_tournament("demo", AgentId{2}); });
+  EXPECT_EQ(database_->untold_tournaments(AgentId{1}, 9).value().at(0).id, "demo");
+  EXPECT_THAT(database_->untold_tournaments(AgentId{2}, 9).value(), IsEmpty());
+}
+
+TEST_P(DatabaseConformance, gives_an_agent_another_token) {
+  in_transaction([&] { return database_->set_agent_token(AgentId{1}, digest_of(200)); });
+  EXPECT_EQ(database_->agent_with_token(digest_of(200)).value()->name, "Anna");
+  EXPECT_EQ(database_->agent_with_token(digest_of(1)).value(), std::nullopt);
 }
 
 TEST_P(DatabaseConformance, keeps_entries_in_their_order_with_their_options) {

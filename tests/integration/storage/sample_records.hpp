@@ -47,7 +47,8 @@ inline MatchRecord sample_match(std::int64_t id) {
           .terms = sample_terms(),
           .seed = 0xfedcba9876543210,
           .mirrored = true,
-          .created = UnixMicros{11}};
+          .created = UnixMicros{11},
+          .challenge = protocol::ChallengeId{77}};
 }
 
 inline GameRecord sample_game(std::int64_t id, std::uint32_t number) {

@@ -207,8 +207,21 @@ class FullDisk final : public Database {
   Expected<std::vector<GameRecord>> games_of(MatchId id) override {
     return database_->games_of(id);
   }
-  Expected<std::vector<GameRecord>> unacknowledged_by(AgentId id) override {
-    return database_->unacknowledged_by(id);
+  Expected<std::optional<MatchRecord>> match_requested(std::string_view request) override {
+    return database_->match_requested(request);
+  }
+  Expected<std::vector<GameRecord>> unacknowledged_by(AgentId id, std::size_t most) override {
+    return database_->unacknowledged_by(id, most);
+  }
+  Expected<std::vector<MatchRecord>> untold_matches(AgentId id, std::size_t most) override {
+    return database_->untold_matches(id, most);
+  }
+  Expected<std::vector<TournamentRecord>> untold_tournaments(AgentId id,
+                                                             std::size_t most) override {
+    return database_->untold_tournaments(id, most);
+  }
+  Expected<std::vector<FinalStanding>> final_standings(std::string_view id) override {
+    return database_->final_standings(id);
   }
   Expected<std::vector<UnfinishedGame>> unfinished_games() override {
     return database_->unfinished_games();
@@ -247,6 +260,19 @@ class FullDisk final : public Database {
   }
   Expected<void> finish_match(MatchId id, UnixMicros when) override {
     return database_->finish_match(id, when);
+  }
+  Expected<void> finish_tournament(std::string_view id,
+                                   const std::vector<FinalStanding>& standings) override {
+    return database_->finish_tournament(id, standings);
+  }
+  Expected<void> acknowledge_match(MatchId id, AgentId agent) override {
+    return database_->acknowledge_match(id, agent);
+  }
+  Expected<void> acknowledge_tournament(std::string_view id, AgentId agent) override {
+    return database_->acknowledge_tournament(id, agent);
+  }
+  Expected<void> set_agent_token(AgentId id, const Digest& token_hash) override {
+    return database_->set_agent_token(id, token_hash);
   }
   Expected<void> add_game(const GameRecord& game) override { return database_->add_game(game); }
   Expected<void> update_game(const GameRecord& game) override {

@@ -229,8 +229,8 @@ TEST_F(AgentTest, AcknowledgesTheEndOfAGame) {
   log_in();
   start_game();
   ASSERT_FALSE(notify(test_support::scripted_over(GameId{17})));
-  EXPECT_EQ(std::get<protocol::Ack>(last().request).game, GameId{17});
-  const auto end = reply(protocol::GameReply{GameId{17}});
+  EXPECT_EQ(std::get<protocol::Ack>(last().request).what, protocol::Ended{GameId{17}});
+  const auto end = reply(protocol::AckReply{GameId{17}});
   ASSERT_TRUE(end);
   EXPECT_EQ(end->ending, Ending::finished);
 }

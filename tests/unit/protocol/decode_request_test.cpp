@@ -103,7 +103,11 @@ TEST(DecodeRequest, SaysThatAMethodIsUnknownUnderTheRequestsId) {
 }
 
 TEST(DecodeRequest, IgnoresMembersThatItDoesNotKnow) {
-  EXPECT_EQ(decoded<Ack>("ack", R"({"game":4,"mood":"good"})").game, GameId{4});
+  EXPECT_EQ(decoded<Ack>("ack", R"({"game":4,"mood":"good"})").what, Ended{GameId{4}});
+  EXPECT_EQ(decoded<Ack>("ack", R"({"match":4})").what, Ended{MatchId{4}});
+  EXPECT_EQ(decoded<Ack>("ack", R"({"tournament":4})").what, Ended{TournamentId{4}});
+  EXPECT_EQ(decoded<Ack>("ack", R"({"match":5,"game":4})").what, Ended{GameId{4}});
+  EXPECT_EQ(refused("ack", "{}").field, "/params/game");
   EXPECT_TRUE(decode_request(R"({"jsonrpc":"2.0","id":1,"method":"tournament.list","extra":[]})",
                              default_limits));
 }
