@@ -46,6 +46,9 @@ struct Limits {
   std::uint32_t max_refusals = 3;  // in a turn; the last is a foul
   std::chrono::milliseconds challenge_expiry{60'000};
   std::chrono::milliseconds reveal_deadline{5'000};
+  std::chrono::milliseconds entry_deadline{600'000};   // a tournament's, for agents to register
+  std::chrono::milliseconds arrival_deadline{60'000};  // for both to come to a new game
+  std::chrono::milliseconds return_deadline{10'000};   // after a restart, for the one to move
   std::chrono::microseconds lag_credit_per_turn{100'000};
   std::chrono::microseconds lag_credit_per_game{5'000'000};
 };

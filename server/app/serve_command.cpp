@@ -70,6 +70,7 @@ void override_with(const ServeArguments& arguments, settings::ServerSettings& se
   settings.listen = arguments.listen.value_or(settings.listen);
   settings.http = arguments.http.value_or(settings.http);
   settings.database = arguments.database.value_or(settings.database);
+  settings.admin_token_file = arguments.admin_token_file.value_or(settings.admin_token_file);
   settings.log.json = settings.log.json || arguments.log_json;
 }
 
@@ -95,9 +96,7 @@ int run_server(const ServeArguments& arguments) {
   if (arguments.ready_file) {
     options.ready_file = *arguments.ready_file;
   }
-  if (arguments.admin_token_file) {
-    options.admin_token_file = *arguments.admin_token_file;
-  }
+  options.stored_tournaments = net::StoredTournaments::taken_up;
   options.house_bots = bots::house_bot_names();
   std::signal(SIGPIPE, SIG_IGN);  // whoever read the log may go, games do not end for that
   set_up_log(options.settings.log);

@@ -59,6 +59,12 @@ ClockVerdict GameClock::stop(Instant now, Micros lag) {
                                                       : ClockVerdict::shot_cap_over;
 }
 
+void GameClock::pause(Instant now) {
+  assert(running());
+  turn_->time.used += std::max(Micros{0}, now - *turn_->since);
+  turn_->since.reset();
+}
+
 void GameClock::resume(Instant now) {
   assert(turn_ && !turn_->since);
   // A request may have been read before this stretch began, and be refused only now.

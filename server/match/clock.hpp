@@ -70,6 +70,8 @@ class GameClock {
 
   // The clock must run. Decides whether what was read at `now` came in time.
   [[nodiscard]] ClockVerdict stop(Instant now, Micros lag);
+  // Stops the running clock for the server's own reasons: no verdict, no lag.
+  void pause(Instant now);
   // The clock must be stopped in a turn.
   void resume(Instant now);
   // Ends the turn, whose clock must be stopped, and adds the increment. After `game_time_over`

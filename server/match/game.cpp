@@ -106,7 +106,19 @@ Answer Game::meets(const protocol::Decide& decide) const {
   return Later{};
 }
 
+void Game::pause(Instant now) {
+  if (clock_.running())
+    clock_.pause(now);
+}
+
+void Game::unpause(Instant now) {
+  if (phase_ == Phase::thinking && !clock_.running())
+    clock_.resume(now);
+}
+
 std::optional<Answer> Game::stop_clock(const Arrival& arrival) {
+  if (!clock_.running())
+    clock_.resume(arrival.at);
   switch (clock_.stop(arrival.at, arrival.lag)) {
     case ClockVerdict::in_time:
       return std::nullopt;

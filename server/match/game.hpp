@@ -101,6 +101,11 @@ class Game {
   // Starts the clock of a due turn; of any other nothing changes.
   void begin_turn(Instant now);
 
+  // The server cannot go on for the moment: no clock runs. A request that comes meanwhile is
+  // answered as if no time had passed.
+  void pause(Instant now);
+  void unpause(Instant now);
+
   [[nodiscard]] Answer shot(Seat by, const protocol::Shot& shot, const Arrival& arrival);
   [[nodiscard]] Answer decide(Seat by, const protocol::Decide& decide, const Arrival& arrival);
   [[nodiscard]] Answer concede(Seat by, const Arrival& arrival);

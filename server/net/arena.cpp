@@ -56,10 +56,12 @@ Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
                       match, games,
                       match.tournament ? tournaments_.wire_id(*match.tournament) : std::nullopt);
                 }}),
-      tournaments_(services_, matches_, untold_, ids_,
-                   [this](const std::string& name, const HousePlayer& player) -> Agent& {
-                     return house_agent(name, player);
-                   }),
+      tournaments_(
+          services_, matches_, untold_, ids_,
+          [this](const std::string& name, const HousePlayer& player) -> Agent& {
+            return house_agent(name, player);
+          },
+          [this](const std::string& name) -> Agent& { return stand_in(name); }),
       challenges_(services_, matches_,
                   {[this](const std::string& bot) { return house_opponent(bot); },
                    [this](storage::AgentId agent) {
@@ -277,6 +279,9 @@ void Arena::launch(std::shared_ptr<LiveGame> game) {
   if (stage_ != Stage::running) {
     game->halt();
   }
+  if (storage_in_trouble_) {
+    game->suspend();
+  }
   game->begin();
 }
 
@@ -297,6 +302,25 @@ void Arena::game_over(LiveGame& game) {
   untold_.game_over(record);
   matches_.game_over(game);
   games_.erase(number(record.id));  // whoever called holds it until the call is done
+}
+
+Arena::CalledOff Arena::call_off(protocol::GameId game) {
+  LiveGame* live = live_game(game);
+  if (live == nullptr) {
+    return CalledOff::no_game_that_goes_on;
+  }
+  spdlog::warn("game {} is called off by the host", number(game));
+  live->shared_from_this()->call_off();
+  return CalledOff::ends;
+}
+
+void Arena::call_off_games_of(const std::string& tournament) {
+  const auto games = games_;
+  for (const auto& [id, game] : games) {
+    if (matches_.tournament_of(game->record().match) == tournament) {
+      game->call_off();
+    }
+  }
 }
 
 void Arena::stop(std::function<void()> then) {
@@ -339,7 +363,17 @@ void Arena::tell_everyone() {
 }
 
 void Arena::storage_health(const storage::WriterHealth& health) {
-  storage_in_trouble_ = health.trouble.has_value();
+  const bool was_in_trouble = std::exchange(storage_in_trouble_, health.trouble.has_value());
+  if (was_in_trouble != storage_in_trouble_) {
+    const auto games = games_;
+    for (const auto& [id, game] : games) {
+      if (storage_in_trouble_) {
+        game->suspend();
+      } else {
+        game->go_on_after_suspension();
+      }
+    }
+  }
   if (health.trouble) {
     spdlog::error("the database takes nothing, games stand: {} ({} pieces of work wait)",
                   health.trouble->reason, health.waiting);

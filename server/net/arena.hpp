@@ -67,6 +67,15 @@ class Arena final : public Lobby {
   void stop(std::function<void()> then);
   void storage_health(const storage::WriterHealth& health);
 
+  // The host's calls. `then` gets the new agent's token, or why there is none.
+  void add_agent(const std::string& name,
+                 std::function<void(const protocol::Expected<std::string>&)> then);
+  enum class CalledOff : std::uint8_t { ends, no_game_that_goes_on };
+  // Ends it as void; its match plays it again.
+  CalledOff call_off(protocol::GameId game);
+  void call_off_games_of(const std::string& tournament);
+  [[nodiscard]] Matches& matches() { return matches_; }
+
   [[nodiscard]] MatchHost& host() { return tournaments_; }
   [[nodiscard]] ArenaFigures figures() const;
   void for_each_game(const std::function<void(const LiveGame&)>& visit) const;
@@ -89,8 +98,14 @@ class Arena final : public Lobby {
 
   // Joining: registration, login, takeover (arena_joining.cpp).
   [[nodiscard]] std::optional<protocol::Error> why_not(const protocol::Register& request) const;
-  void add_agent(const std::shared_ptr<Session>& session, const std::string& name,
-                 const std::string& token);
+  using Enrolled = std::function<void(const protocol::Expected<storage::AgentId>&)>;
+  void enroll_agent(const std::string& name, const TokenHash& token, Enrolled then);
+  void store_enrolment(storage::Writer::Work work, storage::AgentId agent,
+                       storage::Writer::Done done);
+  [[nodiscard]] storage::AgentRecord new_record(const std::string& name);
+  Agent& make_agent(const storage::AgentRecord& record);
+  void claim(Agent& agent, const TokenHash& token, Enrolled then);
+  Agent& stand_in(const std::string& name);
   void let_in(const std::shared_ptr<Session>& session, storage::AgentId agent,
               std::optional<protocol::Hex256> token);
   void bind(const std::shared_ptr<Session>& session, Agent& agent,

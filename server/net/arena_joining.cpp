@@ -3,6 +3,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 #include "server/net/arena.hpp"
@@ -28,6 +29,29 @@ TokenHash nobody() {
   return hash_of(new_token());
 }
 
+// The hash of no token: the name is kept for whoever registers under it.
+TokenHash unclaimed(storage::AgentId agent) {
+  TokenHash hash{};
+  const std::int64_t id = storage::number(agent);
+  std::memcpy(hash.data() + hash.size() - sizeof id, &id, sizeof id);
+  return hash;
+}
+
+bool is_unclaimed(const TokenHash& hash) {
+  return std::all_of(hash.begin(), hash.end() - sizeof(std::int64_t),
+                     [](std::uint8_t byte) { return byte == 0; });
+}
+
+Error bad_name(const protocol::Limits& limits) {
+  return {ErrorCode::bad_name, "/params/name",
+          fmt::format("expected 1 to {} characters of [A-Za-z0-9._-]", limits.name_length)};
+}
+
+Error not_enrolled(const storage::StorageError& error) {
+  const bool passes = storage::may_pass(error.fault);
+  return {passes ? ErrorCode::paused : ErrorCode::internal, "", error.reason};
+}
+
 }  // namespace
 
 std::optional<Error> Arena::why_not(const protocol::Register& request) const {
@@ -39,9 +63,7 @@ std::optional<Error> Arena::why_not(const protocol::Register& request) const {
                  "agents are added by the host; ask for a token"};
   }
   if (!is_name(request.name, settings_.limits.name_length)) {
-    return Error{
-        ErrorCode::bad_name, "/params/name",
-        fmt::format("expected 1 to {} characters of [A-Za-z0-9._-]", settings_.limits.name_length)};
+    return bad_name(settings_.limits);
   }
   return std::nullopt;
 }
@@ -52,53 +74,129 @@ void Arena::enroll(const std::shared_ptr<Session>& session, const protocol::Regi
     return;
   }
   Agent* known = book_.named(request.name);
-  const bool own = known != nullptr && request.token &&
-                   same(known->record.token_hash, hash_of(request.token->text));
-  if (known != nullptr && !own) {
-    session->not_admitted({ErrorCode::name_taken, "/params/name",
-                           fmt::format("\"{}\" is another agent's name", request.name)});
-    return;
-  }
-  if (known != nullptr) {
+  const std::string token = request.token ? request.token->text : new_token();
+  if (known != nullptr && same(known->record.token_hash, hash_of(token))) {
     let_in(session, known->id(), request.token);  // whose first reply was lost
     return;
   }
-  const std::string token = request.token ? request.token->text : new_token();
-  if (book_.with_token(hash_of(token)) != nullptr) {
-    session->not_admitted({ErrorCode::conflicting_request, "/params/token",
-                           "this token belongs to an agent of another name"});
-    return;
-  }
-  add_agent(session, request.name, token);
+  enroll_agent(request.name, hash_of(token),
+               [this, session, token](const protocol::Expected<storage::AgentId>& agent) {
+                 if (agent) {
+                   let_in(session, *agent, protocol::Hex256{token});
+                 } else {
+                   session->not_admitted(agent.error());
+                   session->resume();
+                 }
+               });
 }
 
-void Arena::add_agent(const std::shared_ptr<Session>& session, const std::string& name,
-                      const std::string& token) {
+void Arena::add_agent(const std::string& name,
+                      std::function<void(const protocol::Expected<std::string>&)> then) {
+  if (!is_name(name, settings_.limits.name_length)) {
+    then(tl::unexpected(bad_name(settings_.limits)));
+    return;
+  }
+  const std::string token = new_token();
+  enroll_agent(name, hash_of(token),
+               [token, then = std::move(then)](const protocol::Expected<storage::AgentId>& agent) {
+                 if (agent) {
+                   then(token);
+                 } else {
+                   then(tl::unexpected(agent.error()));
+                 }
+               });
+}
+
+// A new agent, or the owner of a name that a tournament has waited for.
+void Arena::enroll_agent(const std::string& name, const TokenHash& token, Enrolled then) {
+  Agent* known = book_.named(name);
+  if (known != nullptr && known->stored && is_unclaimed(known->record.token_hash)) {
+    claim(*known, token, std::move(then));
+    return;
+  }
+  if (known != nullptr) {
+    then(tl::unexpected(Error{ErrorCode::name_taken, "/params/name",
+                              fmt::format("\"{}\" is another agent's name", name)}));
+    return;
+  }
+  if (book_.with_token(token) != nullptr) {
+    then(tl::unexpected(Error{ErrorCode::conflicting_request, "/params/token",
+                              "this token belongs to an agent of another name"}));
+    return;
+  }
+  storage::AgentRecord record = new_record(name);
+  record.token_hash = token;
+  book_.add(record).stored = false;
+  store_enrolment([record](storage::Database& database) { return database.add_agent(record); },
+                  record.id,
+                  [this, id = record.id, then](const storage::Expected<void>& stored) {
+                    if (!stored) {
+                      book_.remove(id);
+                      then(tl::unexpected(not_enrolled(stored.error())));
+                      return;
+                    }
+                    book_.find(id)->stored = true;
+                    untold_.is_new(id);
+                    then(id);
+                    tournaments_.agent_enrolled();
+                  });
+}
+
+void Arena::claim(Agent& agent, const TokenHash& token, Enrolled then) {
+  agent.stored = false;
+  const storage::AgentId id = agent.id();
+  store_enrolment(
+      [id, token](storage::Database& database) { return database.set_agent_token(id, token); }, id,
+      [this, id, token, then](const storage::Expected<void>& stored) {
+        Agent& claimed = *book_.find(id);
+        claimed.stored = true;
+        if (!stored) {
+          then(tl::unexpected(not_enrolled(stored.error())));
+          return;
+        }
+        book_.set_token(claimed, token);
+        then(id);
+      });
+}
+
+void Arena::store_enrolment(storage::Writer::Work work, storage::AgentId agent,
+                            storage::Writer::Done done) {
+  if (services_.writer.post(std::move(work), done) != storage::Posted::accepted) {
+    spdlog::warn("agent {} cannot be stored now", storage::number(agent));
+    done(tl::unexpected(storage::StorageError{storage::StorageFault::busy,
+                                              "the database takes nothing at the moment"}));
+  }
+}
+
+storage::AgentRecord Arena::new_record(const std::string& name) {
   storage::AgentRecord record;
   record.id = ids_.agent;
   ids_.agent = storage::AgentId{storage::number(ids_.agent) + 1};
   record.name = name;
-  record.token_hash = hash_of(token);
   record.created = storage::unix_now();
-  book_.add(record).stored = false;
+  return record;
+}
+
+// An agent of the server's own making: known at once, stored as soon as may be.
+Agent& Arena::make_agent(const storage::AgentRecord& record) {
+  Agent& agent = book_.add(record);
   const auto posted = services_.writer.post(
       [record](storage::Database& database) { return database.add_agent(record); },
-      [this, session, id = record.id, token](const storage::Expected<void>& stored) {
+      [name = record.name](const storage::Expected<void>& stored) {
         if (!stored) {
-          book_.remove(id);
-          session->not_admitted({ErrorCode::internal, "", stored.error().reason});
-          session->resume();
-          return;
+          spdlog::error("agent {} cannot be stored: {}", name, stored.error().reason);
         }
-        book_.find(id)->stored = true;
-        untold_.is_new(id);
-        let_in(session, id, protocol::Hex256{token});
-        tournaments_.agent_enrolled();
       });
   if (posted != storage::Posted::accepted) {
-    book_.remove(record.id);
-    session->not_admitted({ErrorCode::paused, "", "the database takes nothing at the moment"});
+    spdlog::error("agent {} cannot be stored: the database takes nothing", record.name);
   }
+  return agent;
+}
+
+Agent& Arena::stand_in(const std::string& name) {
+  storage::AgentRecord record = new_record(name);
+  record.token_hash = unclaimed(record.id);
+  return make_agent(record);
 }
 
 void Arena::admit(const std::shared_ptr<Session>& session, const protocol::Login& request) {
@@ -186,24 +284,10 @@ void Arena::catch_up(const std::shared_ptr<Session>& session, const Agent& agent
 Agent& Arena::house_agent(const std::string& name, const HousePlayer& player) {
   Agent* agent = book_.named(name);
   if (agent == nullptr) {
-    storage::AgentRecord record;
-    record.id = ids_.agent;
-    ids_.agent = storage::AgentId{storage::number(ids_.agent) + 1};
-    record.name = name;
+    storage::AgentRecord record = new_record(name);
     record.token_hash = nobody();
     record.house_bot = player.bot;
-    record.created = storage::unix_now();
-    agent = &book_.add(record);
-    const auto posted = services_.writer.post(
-        [record](storage::Database& database) { return database.add_agent(record); },
-        [name](const storage::Expected<void>& stored) {
-          if (!stored) {
-            spdlog::error("agent {} cannot be stored: {}", name, stored.error().reason);
-          }
-        });
-    if (posted != storage::Posted::accepted) {
-      spdlog::error("agent {} cannot be stored: the database takes nothing", name);
-    }
+    agent = &make_agent(record);
   } else if (!agent->record.house_bot) {
     spdlog::warn(
         "agent {} is played by the house from now on; its own token is good again "

@@ -17,9 +17,6 @@ using std::chrono::steady_clock;
 
 namespace {
 
-// How long a game waits for agents that are away, in all.
-constexpr std::chrono::seconds wait_for_both{60};
-constexpr std::chrono::seconds wait_for_mover{10};
 // Requests that one game keeps while something is in flight.
 constexpr std::size_t waiting_bound = 16;
 constexpr std::chrono::milliseconds writer_retry{50};
@@ -42,7 +39,8 @@ void LiveGame::begin() {
 }
 
 void LiveGame::await_agents() {
-  const auto wait = start_ == Start::fresh ? wait_for_both : wait_for_mover;
+  const auto wait =
+      start_ == Start::fresh ? services_.limits.arrival_deadline : services_.limits.return_deadline;
   arrival_deadline_ =
       services_.deadlines.at(steady_clock::now() + wait, [this] { start_waited_enough(); });
   go_on();
@@ -50,6 +48,10 @@ void LiveGame::await_agents() {
 
 void LiveGame::start_waited_enough() {
   if (halted_ || game_.phase() != Phase::due) {
+    return;
+  }
+  if (suspended_) {
+    await_agents();  // nobody may be able to come
     return;
   }
   const bool first_here = session_of(Seat::first) != nullptr;
@@ -71,6 +73,10 @@ bool LiveGame::all_needed_are_in() const {
 
 // After whatever happened: the end, the next turn, and what has waited.
 void LiveGame::go_on() {
+  if (called_off_ && !in_flight()) {
+    end_as_void();
+    return;
+  }
   if (game_.phase() == Phase::due && !halted_ && (!awaiting_agents_ || all_needed_are_in())) {
     awaiting_agents_ = false;
     arrival_deadline_.cancel();
@@ -94,6 +100,9 @@ void LiveGame::begin_turn() {
 }
 
 void LiveGame::watch_flag() {
+  if (suspended_) {
+    game_.pause(match::rounded_down(steady_clock::now()));
+  }
   const auto expires = game_.expires(lag_of(game_.state().to_move));
   if (!expires || halted_) {
     flag_.cancel();
@@ -284,8 +293,8 @@ void LiveGame::not_written(const storage::StorageError& error) {
     asker.refuse(reason);
   }
   game_.not_stored(match::rounded_up(steady_clock::now()));
-  if (++failures_ == failures_bound) {
-    make_void();
+  if (++failures_ == failures_bound || called_off_) {
+    end_as_void();
     return;
   }
   watch_flag();
@@ -350,9 +359,31 @@ void LiveGame::forfeit(Seat loser) {
   act(game_.forfeit(loser, now), GameRequest{});
 }
 
-void LiveGame::make_void() {
+void LiveGame::call_off() {
+  called_off_ = true;
+  go_on();
+}
+
+void LiveGame::end_as_void() {
+  if (game_.phase() == Phase::over) {
+    return;
+  }
   const match::Arrival now{match::rounded_down(steady_clock::now()), {}, storage::unix_now()};
   act(game_.make_void(now), GameRequest{});
+}
+
+void LiveGame::suspend() {
+  suspended_ = true;
+  watch_flag();
+}
+
+void LiveGame::go_on_after_suspension() {
+  suspended_ = false;
+  game_.unpause(match::rounded_up(steady_clock::now()));
+  watch_flag();
+  if (game_.phase() == Phase::due && awaiting_agents_) {
+    await_agents();
+  }
 }
 
 void LiveGame::halt() {

@@ -69,9 +69,13 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   // Whether this is the answer to the turn that waits for it.
   [[nodiscard]] bool is_awaited(Seat seat, const protocol::Request& request) const;
   void forfeit(Seat loser);
-  void make_void();
+  // Ends it as void, after what is in flight.
+  void call_off();
   // No new turns; what is in flight finishes.
   void halt();
+  // While the database takes nothing no clock runs and no flag falls.
+  void suspend();
+  void go_on_after_suspension();
 
   [[nodiscard]] const storage::GameRecord& record() const { return game_.record(); }
   [[nodiscard]] const match::Game& game() const { return game_; }
@@ -98,6 +102,7 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   void answer_from(const storage::TurnRecord& row, const GameRequest& request) const;
   void look_up(std::uint32_t turn, const GameRequest& request) const;
   void go_on();
+  void end_as_void();
   void take_waiting();
   void await_agents();
   void start_waited_enough();
@@ -117,6 +122,8 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   Start start_;
   bool awaiting_agents_ = true;  // before the first turn of this run of the server
   bool halted_ = false;
+  bool called_off_ = false;
+  bool suspended_ = false;
   Deadline arrival_deadline_;
   Deadline flag_;
   Deadline write_retry_;

@@ -185,10 +185,28 @@ tl::expected<storage::GameRecord, std::string> Matches::draw_game(const LiveMatc
   return record;
 }
 
+void Matches::set_pace(const std::string& tournament, Pace pace) {
+  paces_[tournament] = pace;
+  for (auto& [id, match] : matches_) {
+    if (match.record.tournament == tournament && !match.game_goes_on) {
+      begin_next(match);
+    }
+  }
+}
+
+Matches::Pace Matches::pace_of(const LiveMatch& match) const {
+  const auto found = match.record.tournament ? paces_.find(*match.record.tournament) : paces_.end();
+  return found == paces_.end() ? Pace::steady : found->second;
+}
+
 void Matches::begin_next(LiveMatch& match) {
   const auto number = next_number(match);
-  if (!number) {
+  const Pace pace = pace_of(match);
+  if (!number || pace == Pace::ended) {
     finish(match);
+    return;
+  }
+  if (pace == Pace::held) {
     return;
   }
   const auto game = draw_game(match, *number);
@@ -288,6 +306,11 @@ std::vector<MatchOutcome> Matches::unfinished(const std::string& tournament) con
     }
   }
   return unfinished;
+}
+
+std::optional<std::string> Matches::tournament_of(MatchId match) const {
+  const auto found = matches_.find(match);
+  return found == matches_.end() ? std::nullopt : found->second.record.tournament;
 }
 
 std::vector<MatchId> Matches::challenges() const {

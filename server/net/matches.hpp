@@ -33,6 +33,9 @@ struct MatchPlan {
 
 class Matches {
  public:
+  // How a tournament's matches go: on, not to another game for now, or to their end at once.
+  enum class Pace : std::uint8_t { steady, held, ended };
+
   struct Outside {
     std::function<void(std::shared_ptr<LiveGame>)> launch;
     std::function<std::optional<protocol::TournamentId>(const std::string&)> wire_id;
@@ -55,12 +58,15 @@ class Matches {
   // Starts the next game of a restored match, unless one goes on.
   void go_on(MatchId match, bool mirrored);
   void game_over(const LiveGame& game);
+  void set_pace(const std::string& tournament, Pace pace);
 
   [[nodiscard]] std::optional<MatchId> find(const std::string& tournament,
                                             std::uint32_t pairing) const;
   // Of a tournament, those that go on, with the games scored so far.
   [[nodiscard]] std::vector<MatchOutcome> unfinished(const std::string& tournament) const;
   [[nodiscard]] std::size_t size() const { return matches_.size(); }
+  // Of a match that goes on.
+  [[nodiscard]] std::optional<std::string> tournament_of(MatchId match) const;
   // Restored matches without a tournament: nobody else would start their next game.
   [[nodiscard]] std::vector<MatchId> challenges() const;
 
@@ -81,6 +87,7 @@ class Matches {
   [[nodiscard]] tl::expected<storage::GameRecord, std::string> draw_game(const LiveMatch& match,
                                                                          std::uint32_t number);
   void begin_next(LiveMatch& match);
+  [[nodiscard]] Pace pace_of(const LiveMatch& match) const;
   void finish(LiveMatch& match);
   void launch(const storage::UnfinishedGame& game, const storage::MatchRecord& match, Start start);
   void post(storage::Writer::Work work, std::function<void()> then, std::string what);
@@ -89,6 +96,7 @@ class Matches {
   storage::Counters& ids_;
   Outside outside_;
   std::map<MatchId, LiveMatch> matches_;
+  std::map<std::string, Pace> paces_;  // of tournaments; steady if not here
 };
 
 }  // namespace poolhall::net

@@ -15,6 +15,7 @@
 #include <thread>
 #include <utility>
 
+#include "server/net/admin_calls.hpp"
 #include "server/net/arena.hpp"
 #include "server/net/figures.hpp"
 #include "server/net/listener.hpp"
@@ -132,6 +133,7 @@ class Server::Impl {
 
  private:
   tl::expected<void, std::string> open_database();
+  tl::expected<void, std::string> open_desk();
   tl::expected<void, std::string> listen();
   tl::expected<void, std::string> listen_http();
   tl::expected<void, std::string> say_ready();
@@ -145,6 +147,8 @@ class Server::Impl {
   std::unique_ptr<storage::Writer> writer_;
   std::unique_ptr<Archive> archive_;
   std::unique_ptr<Arena> arena_;
+  std::unique_ptr<TournamentDesk> desk_;
+  std::unique_ptr<web::Admin> admin_;
   std::unique_ptr<Listener> listener_;
   std::unique_ptr<asio::signal_set> signals_;
   std::unique_ptr<web::HttpServer> http_;
@@ -160,6 +164,9 @@ tl::expected<void, std::string> Server::Impl::start() {
   if (auto opened = open_database(); !opened) {
     return opened;
   }
+  if (auto opened = open_desk(); !opened) {
+    return opened;
+  }
   if (auto listening = listen(); !listening) {
     return listening;
   }
@@ -171,6 +178,9 @@ tl::expected<void, std::string> Server::Impl::start() {
   }
   arena_->begin(
       {options_.program, to_string(reachable(agents_)), options_.settings.max_house_bots});
+  if (options_.stored_tournaments == StoredTournaments::taken_up) {
+    desk_->take_up();
+  }
   listener_->start();
   if (http_) {
     http_->start();
@@ -217,6 +227,23 @@ tl::expected<void, std::string> Server::Impl::open_database() {
   return {};
 }
 
+tl::expected<void, std::string> Server::Impl::open_desk() {
+  desk_ = std::make_unique<TournamentDesk>(
+      arena_->host(), arena_->matches(),
+      [this](const std::string& tournament) { arena_->call_off_games_of(tournament); },
+      [] { return std::chrono::steady_clock::now(); });
+  std::optional<std::string> token;
+  if (const std::string& file = options_.settings.admin_token_file; !file.empty()) {
+    auto read = token_in(file);
+    if (!read) {
+      return tl::unexpected(read.error());
+    }
+    token = std::move(*read);
+  }
+  admin_ = std::make_unique<web::Admin>(token, host_calls(*arena_, *archive_, *desk_));
+  return {};
+}
+
 tl::expected<void, std::string> Server::Impl::listen() {
   const auto endpoint = endpoint_of(options_.settings.listen);
   if (!endpoint) {
@@ -256,6 +283,9 @@ tl::expected<void, std::string> Server::Impl::listen_http() {
   sources.health = [this] { return health_page(arena_->figures()); };
   sources.metrics = [this] { return metrics_of(arena_->figures(), writer_->statistics()); };
   sources.live = [this] { return live_json(*arena_); };
+  sources.admin = [this](const web::AdminRequest& request, const web::Then& then) {
+    admin_->answer(request, then);
+  };
   http_ = std::make_unique<web::HttpServer>(io_, std::move(sources));
   if (auto bound = http_->open(endpoint->host, endpoint->port); !bound) {
     return bound;
@@ -325,7 +355,7 @@ Endpoint Server::agents_endpoint() const {
   return impl_->agents();
 }
 std::optional<Endpoint> Server::http_endpoint() const {
-  return std::nullopt;
+  return impl_->page();
 }
 
 }  // namespace poolhall::net

@@ -21,6 +21,9 @@
 
 namespace poolhall::net {
 
+// taken_up: tournaments in the database that ran go on; left_alone: they are the caller's.
+enum class StoredTournaments : std::uint8_t { left_alone, taken_up };
+
 enum class Signals : std::uint8_t { handled, left_alone };  // left alone: SIGTERM is the caller's
 
 struct Endpoint {
@@ -36,8 +39,8 @@ struct Endpoint {
 struct ServerOptions {
   settings::ServerSettings settings;  // port 0 picks a free one; an empty `http` is no page
   std::optional<std::filesystem::path> ready_file{};
-  std::optional<std::filesystem::path> admin_token_file{};
   Signals signals = Signals::handled;
+  StoredTournaments stored_tournaments = StoredTournaments::left_alone;
   std::filesystem::path program = "/proc/self/exe";  // that plays house bots: `program bot NAME`
   std::vector<std::string> house_bots{"random", "greedy"};  // that may be challenged
 };

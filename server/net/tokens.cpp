@@ -1,11 +1,14 @@
 #include "server/net/tokens.hpp"
 
+#include <fcntl.h>
 #include <openssl/crypto.h>
 #include <openssl/rand.h>
 #include <openssl/sha.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <cstring>
+#include <fstream>
 #include <stdexcept>
 
 namespace poolhall::net {
@@ -68,6 +71,31 @@ TokenHash hash_of(std::string_view token) {
 
 bool same(const TokenHash& a, const TokenHash& b) {
   return CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
+tl::expected<std::string, std::string> token_in(const std::filesystem::path& file) {
+  const int made = ::open(file.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0600);
+  if (made >= 0) {
+    const std::string line = new_token() + "\n";
+    const bool written =
+        ::write(made, line.data(), line.size()) == static_cast<ssize_t>(line.size());
+    ::close(made);
+    if (!written) {
+      return tl::unexpected(file.string() + ": the admin token cannot be written");
+    }
+  }
+  std::ifstream in(file);
+  std::string token;
+  if (!std::getline(in, token)) {
+    return tl::unexpected(file.string() + ": the admin token cannot be read");
+  }
+  const bool visible =
+      std::all_of(token.begin(), token.end(), [](char c) { return c > ' ' && c < 0x7f; });
+  if (token.size() < 16 || token.size() > 256 || !visible) {
+    return tl::unexpected(file.string() +
+                          ": expected a line of 16 to 256 visible characters, the admin token");
+  }
+  return token;
 }
 
 std::uint64_t random_seed() {

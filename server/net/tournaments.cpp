@@ -38,12 +38,13 @@ storage::TermsRecord record_of(const GameTerms& terms, const protocol::Limits& l
 }  // namespace
 
 Tournaments::Tournaments(GameServices& services, Matches& matches, Untold& untold,
-                         storage::Counters& ids, House house)
+                         storage::Counters& ids, House house, StandIn stand_in)
     : services_(services),
       matches_(matches),
       untold_(untold),
       ids_(ids),
-      house_(std::move(house)) {}
+      house_(std::move(house)),
+      stand_in_(std::move(stand_in)) {}
 
 storage::Expected<void> Tournaments::restore(storage::Reader& reader) {
   const auto records = reader.tournaments();
@@ -238,10 +239,37 @@ void Tournaments::start_match(const MatchOrder& order) {
   const Agent* first = services_.book.named(order.agents[0]);
   const Agent* second = services_.book.named(order.agents[1]);
   if (first == nullptr || second == nullptr) {
-    awaited_orders_[key] = order;
+    await_agents(key, order);
     return;
   }
+  awaited_until_.erase(key);
   begin(order, {first->id(), second->id()});
+}
+
+void Tournaments::await_agents(const OrderKey& key, const MatchOrder& order) {
+  awaited_orders_[key] = order;
+  Deadline& until = awaited_until_[key];
+  if (!until.is_set()) {
+    until =
+        services_.deadlines.at(std::chrono::steady_clock::now() + services_.limits.entry_deadline,
+                               [this, key] { waited_enough(key); });
+  }
+}
+
+// Who has never registered is played without: the games are forfeited unless somebody comes yet.
+void Tournaments::waited_enough(const OrderKey& key) {
+  const auto found = awaited_orders_.find(key);
+  if (found == awaited_orders_.end()) {
+    return;
+  }
+  for (const std::string& name : found->second.agents) {
+    if (services_.book.named(name) == nullptr) {
+      spdlog::warn("tournament {}: {} has not registered, pairing {} begins without", key.first,
+                   name, key.second);
+      stand_in_(name);
+    }
+  }
+  agent_enrolled();
 }
 
 void Tournaments::begin(const MatchOrder& order, const std::array<storage::AgentId, 2>& agents) {

@@ -23,9 +23,11 @@ class Tournaments final : public MatchHost {
  public:
   // Makes an agent of the house known, or finds it.
   using House = std::function<Agent&(const std::string& name, const HousePlayer& player)>;
+  // Makes an agent of that name known, who may come later.
+  using StandIn = std::function<Agent&(const std::string& name)>;
 
   Tournaments(GameServices& services, Matches& matches, Untold& untold, storage::Counters& ids,
-              House house);
+              House house, StandIn stand_in);
 
   // At the start, before anything else.
   [[nodiscard]] storage::Expected<void> restore(storage::Reader& reader);
@@ -79,6 +81,8 @@ class Tournaments final : public MatchHost {
   [[nodiscard]] Tournament* find(const Asker& asker, protocol::TournamentId id);
   void add_entry(Tournament& tournament, storage::AgentId agent);
   void store(storage::Writer::Work work, std::string what);
+  void await_agents(const OrderKey& key, const MatchOrder& order);
+  void waited_enough(const OrderKey& key);
   void begin(const MatchOrder& order, const std::array<storage::AgentId, 2>& agents);
   [[nodiscard]] TournamentEntry entry_of(const std::string& tournament,
                                          storage::AgentId agent) const;
@@ -88,10 +92,12 @@ class Tournaments final : public MatchHost {
   Untold& untold_;
   storage::Counters& ids_;
   House house_;
+  StandIn stand_in_;
   std::map<std::string, Tournament> tournaments_;
   std::map<OrderKey, MatchOrder> orders_;
   std::vector<TournamentEntry> awaited_entries_;  // of agents that have not registered yet
   std::map<OrderKey, MatchOrder> awaited_orders_;
+  std::map<OrderKey, Deadline> awaited_until_;
   std::map<storage::AgentId, TournamentEntry> house_entries_;
   std::function<void(const MatchOutcome&)> on_match_over_;
   std::function<void(const MatchOrder&, const GameOutcome&)> on_game_over_;

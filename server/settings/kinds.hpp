@@ -93,6 +93,20 @@ struct HostPort {
   [[nodiscard]] static std::string write(const Value& value);
 };
 
+// Another kind of text, or "" where nothing is wanted.
+template <class Kind>
+struct OrNone {
+  using Value = std::string;
+  Kind kind;
+
+  [[nodiscard]] std::string expected() const { return kind.expected() + "; \"\" for none"; }
+  [[nodiscard]] std::optional<Value> read(const Node& node) const {
+    const auto* text = std::get_if<std::string>(&node.value);
+    return text != nullptr && text->empty() ? std::optional(*text) : kind.read(node);
+  }
+  [[nodiscard]] std::string write(const Value& value) const { return kind.write(value); }
+};
+
 struct OneOf {
   using Value = std::string;
   std::vector<std::string> choices;

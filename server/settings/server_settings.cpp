@@ -50,6 +50,9 @@ void add_rate_limits(Keys<ServerSettings>& keys) {
   keys.add(
       "limits.takeover_interval_seconds", Seconds{0, 60},
       [](auto& s) -> auto& { return s.limits.takeover_interval; });
+  keys.add(
+      "limits.untold_ends", WholeNumber{1, 10'000},
+      [](auto& s) -> auto& { return s.limits.untold_ends; });
 }
 
 void add_queue_limits(Keys<ServerSettings>& keys) {
@@ -68,6 +71,15 @@ void add_game_limits(Keys<ServerSettings>& keys) {
   keys.add(
       "limits.challenge_expiry_seconds", Seconds{1, 3600},
       [](auto& s) -> auto& { return s.limits.challenge_expiry; });
+  keys.add(
+      "limits.entry_seconds", Seconds{0.1, 1e6},
+      [](auto& s) -> auto& { return s.limits.entry_deadline; });
+  keys.add(
+      "limits.arrival_seconds", Seconds{0.1, 1e6},
+      [](auto& s) -> auto& { return s.limits.arrival_deadline; });
+  keys.add(
+      "limits.return_seconds", Seconds{0.1, 1e6},
+      [](auto& s) -> auto& { return s.limits.return_deadline; });
   keys.add(
       "limits.lag_credit_per_turn_seconds", Seconds{0, 10},
       [](auto& s) -> auto& { return s.limits.lag_credit_per_turn; });
@@ -92,6 +104,19 @@ Keys<ServerSettings> server_key_table() {
       "worker_threads", WholeNumber{0, 1024}, [](auto& s) -> auto& { return s.worker_threads; });
   keys.add(
       "max_house_bots", WholeNumber{0, 1024}, [](auto& s) -> auto& { return s.max_house_bots; });
+  keys.add(
+      "plain_beyond_loopback", Flag{}, [](auto& s) -> auto& { return s.plain_beyond_loopback; });
+  keys.add(
+      "admin_token_file", OrNone<Line>{{"the name of a file"}},
+      [](auto& s) -> auto& { return s.admin_token_file; });
+  keys.add(
+      "tls.listen", OrNone<HostPort>{}, [](auto& s) -> auto& { return s.tls.listen; });
+  keys.add(
+      "tls.certificate", OrNone<Line>{{"the name of a PEM file"}},
+      [](auto& s) -> auto& { return s.tls.certificate; });
+  keys.add(
+      "tls.key", OrNone<Line>{{"the name of a PEM file"}},
+      [](auto& s) -> auto& { return s.tls.key; });
   keys.add(
       "log.level", OneOf{{"trace", "debug", "info", "warning", "error"}},
       [](auto& s) -> auto& { return s.log.level; });

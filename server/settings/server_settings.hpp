@@ -21,6 +21,13 @@ struct LogSettings {
   bool json = false;           // one JSON object a line
 };
 
+// With a certificate the page is served by HTTPS, and agents may connect by TLS.
+struct TlsSettings {
+  std::string listen;       // agents; empty: no port of its own
+  std::string certificate;  // PEM file: the server's first, then its issuers'
+  std::string key;          // PEM file
+};
+
 struct ServerSettings {
   std::string name = "poolhall";          // told to agents
   std::string listen = "127.0.0.1:7777";  // agents
@@ -29,6 +36,9 @@ struct ServerSettings {
   std::string registration = "open";      // open: any agent may register; closed
   std::uint32_t worker_threads = 0;       // for physics; 0: one a core
   std::uint32_t max_house_bots = 16;      // processes
+  bool plain_beyond_loopback = false;     // unencrypted, for other machines
+  std::string admin_token_file;           // made if it does not exist; empty: no admin calls
+  TlsSettings tls;
   LogSettings log;
   protocol::Limits limits;
 };

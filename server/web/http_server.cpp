@@ -15,6 +15,8 @@
 #include <boost/beast/http/write.hpp>
 #include <utility>
 
+#include "server/web/routes.hpp"
+
 namespace poolhall::web {
 
 namespace asio = boost::asio;
@@ -27,7 +29,7 @@ namespace {
 constexpr auto awaited = asio::as_tuple(asio::use_awaitable);
 constexpr std::chrono::seconds patience{30};
 constexpr std::uint32_t header_bytes = 8 * 1024;
-constexpr std::uint64_t body_bytes = 1'024;  // no page reads one
+constexpr std::uint64_t body_bytes = 256 * 1'024;  // a tournament of 256 entries
 constexpr std::size_t connections = 256;
 constexpr std::chrono::milliseconds breath{100};
 
@@ -36,6 +38,11 @@ std::string_view without_port(std::string_view host) {
     return host.substr(0, std::min(host.find(']') + 1, host.size()));
   }
   return host.substr(0, std::min(host.find(':'), host.size()));
+}
+
+std::string path_of(const http::request<http::string_body>& request) {
+  const std::string target{request.target().data(), request.target().size()};
+  return target.substr(0, target.find('?'));
 }
 
 }  // namespace
@@ -131,16 +138,37 @@ bool HttpServer::is_own_host(std::string_view host) const {
          host_ == "0.0.0.0" || host_ == "::";
 }
 
+// Browsers name the site whose page asks, but for their own GETs.
+bool HttpServer::is_own_origin(std::string_view origin, std::string_view host) {
+  const auto scheme = origin.find("://");
+  return origin.empty() || (scheme != std::string_view::npos && origin.substr(scheme + 3) == host);
+}
+
 asio::awaitable<Page> HttpServer::page_for(const Request& request) {
   const std::string_view host{request[http::field::host].data(), request[http::field::host].size()};
   if (!is_own_host(host)) {
     co_return refusal(421, "wrong_host", "this server has another name");
   }
-  if (request.method() != http::verb::get && request.method() != http::verb::head) {
-    co_return refusal(405, "method_not_allowed", "expected GET or HEAD");
+  const std::string_view origin{request[http::field::origin].data(),
+                                request[http::field::origin].size()};
+  if (!is_own_origin(origin, host)) {
+    co_return refusal(403, "wrong_origin", "another site's page may not ask this");
   }
-  std::string path{request.target().data(), request.target().size()};
-  path = path.substr(0, path.find('?'));
+  std::string path = path_of(request);
+  const Routing routing =
+      route_of({request.method_string().data(), request.method_string().size()}, path);
+  if (const auto* missing = std::get_if<NoRoute>(&routing)) {
+    co_return *missing == NoRoute::path
+        ? refusal(404, "not_found", "there is no such path; see /api/openapi.json")
+        : refusal(405, "method_not_allowed", "see /api/openapi.json for what this path takes");
+  }
+  if (Admin::is_for(path)) {
+    co_return co_await admin(
+        {path, std::string{request[http::field::authorization]}, request.body()});
+  }
+  if (path == "/api/openapi.json") {
+    co_return Page{200, "application/json", openapi_document()};
+  }
   if (path == "/healthz") {
     co_return sources_.health();
   }
@@ -162,6 +190,16 @@ asio::awaitable<Page> HttpServer::read(std::string path) {
                       [shared](Page done) { (*shared)(std::move(done)); });
       },
       asio::use_awaitable, std::move(path));
+  co_return page;
+}
+
+asio::awaitable<Page> HttpServer::admin(AdminRequest request) {
+  Page page = co_await asio::async_initiate<const asio::use_awaitable_t<>, void(Page)>(
+      [this](auto handler, const AdminRequest& asked) {
+        auto shared = std::make_shared<decltype(handler)>(std::move(handler));
+        sources_.admin(asked, [shared](Page done) { (*shared)(std::move(done)); });
+      },
+      asio::use_awaitable, std::move(request));
   co_return page;
 }
 

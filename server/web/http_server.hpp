@@ -17,6 +17,7 @@
 
 #include <tl/expected.hpp>
 
+#include "server/web/admin.hpp"
 #include "server/web/pages.hpp"
 
 namespace poolhall::web {
@@ -29,6 +30,7 @@ struct Sources {
   std::function<Page()> health;
   std::function<std::string()> metrics;  // Prometheus' text format
   std::function<std::string()> live;     // JSON
+  std::function<void(const AdminRequest& request, const Then& then)> admin;
 };
 
 class HttpServer {
@@ -49,6 +51,8 @@ class HttpServer {
   boost::asio::awaitable<void> serve(boost::asio::ip::tcp::socket socket);
   boost::asio::awaitable<Page> page_for(const Request& request);
   boost::asio::awaitable<Page> read(std::string path);
+  boost::asio::awaitable<Page> admin(AdminRequest request);
+  [[nodiscard]] static bool is_own_origin(std::string_view origin, std::string_view host);
   [[nodiscard]] bool is_own_host(std::string_view host) const;
 
   boost::asio::io_context& io_;

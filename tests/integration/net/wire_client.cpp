@@ -51,18 +51,30 @@ std::optional<std::string> WireClient::read_line() {
       input_.erase(0, end + 1);
       return line;
     }
-    pollfd readable{socket_, POLLIN, 0};
-    const auto wait = std::chrono::milliseconds{patience}.count();
-    if (::poll(&readable, 1, static_cast<int>(wait)) <= 0) {
-      throw std::runtime_error("no line within the deadline");
-    }
-    char buffer[65536];
-    const auto got = ::recv(socket_, buffer, sizeof buffer, 0);
-    if (got <= 0) {
+    if (!receive()) {
       return std::nullopt;
     }
+  }
+}
+
+bool WireClient::receive() {
+  pollfd readable{socket_, POLLIN, 0};
+  const auto wait = std::chrono::milliseconds{patience}.count();
+  if (::poll(&readable, 1, static_cast<int>(wait)) <= 0) {
+    throw std::runtime_error("no bytes within the deadline");
+  }
+  char buffer[65536];
+  const auto got = ::recv(socket_, buffer, sizeof buffer, 0);
+  if (got > 0) {
     input_.append(buffer, static_cast<std::size_t>(got));
   }
+  return got > 0;
+}
+
+std::string WireClient::read_all() {
+  while (receive()) {
+  }
+  return std::exchange(input_, {});
 }
 
 ServerMessage WireClient::decode(const std::string& line) {

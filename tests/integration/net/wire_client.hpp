@@ -33,6 +33,8 @@ class WireClient {
   void send_bytes(std::string_view bytes);
   // Nothing at the end of the stream. Throws when there is no line within the deadline.
   [[nodiscard]] std::optional<std::string> read_line();
+  // Everything until the end of the stream.
+  [[nodiscard]] std::string read_all();
   void close();
 
   // Sends the request; its reply is read by reply_to or call.
@@ -85,6 +87,8 @@ class WireClient {
   protocol::LoginReply login(const std::string& token);
 
  private:
+  // More bytes into input_; false at the end of the stream.
+  bool receive();
   [[nodiscard]] protocol::ServerMessage decode(const std::string& line);
 
   int socket_ = -1;

@@ -1,0 +1,76 @@
+// The tournaments of a serving host: made, started, held, ended by the host's calls, and taken up
+// again after a restart. Each has a driver of its own.
+//
+//   TournamentDesk desk{host, matches, [] { return std::chrono::steady_clock::now(); }};
+//   desk.take_up();
+//   if (auto made = desk.create(toml_text); made) desk.start(made->id);
+//
+// The network thread's own.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <tl/expected.hpp>
+
+#include "server/net/match_host.hpp"
+#include "server/net/matches.hpp"
+#include "server/net/tournament_driver.hpp"
+
+namespace poolhall::net {
+
+// Why a call of the host's cannot be done.
+struct DeskRefusal {
+  enum class Kind : std::uint8_t { bad_settings, unknown, conflict };
+  Kind kind = Kind::conflict;
+  std::string reason;  // one line: what came and what was expected
+};
+
+class TournamentDesk {
+ public:
+  template <class T>
+  using Result = tl::expected<T, DeskRefusal>;
+  using Now = std::function<SteadyTime()>;
+  // Ends games that go on, of that tournament.
+  using CallOff = std::function<void(const std::string& tournament)>;
+
+  TournamentDesk(MatchHost& host, Matches& matches, CallOff call_off, Now now);
+  ~TournamentDesk();
+  TournamentDesk(const TournamentDesk&) = delete;
+  TournamentDesk& operator=(const TournamentDesk&) = delete;
+
+  // Tournaments that ran when the server stopped go on; held ones stay held.
+  void take_up();
+
+  // From a tournament file's text; open until it is started. The same text again is the same
+  // tournament.
+  [[nodiscard]] Result<TournamentCard> create(const std::string& text);
+  [[nodiscard]] Result<TournamentCard> start(const std::string& id);
+  // Games that go on are played to their end; no other begins.
+  [[nodiscard]] Result<TournamentCard> pause(const std::string& id);
+  [[nodiscard]] Result<TournamentCard> resume(const std::string& id);
+  // Games that go on are void.
+  [[nodiscard]] Result<TournamentCard> abort(const std::string& id);
+
+ private:
+  class Share;  // of the host, for one tournament
+  struct Running {
+    std::unique_ptr<Share> share;
+    std::unique_ptr<TournamentDriver> driver;
+  };
+
+  [[nodiscard]] Result<TournamentCard> card_of(const std::string& id) const;
+  [[nodiscard]] Result<TournamentCard> drive(const TournamentCard& card);
+  [[nodiscard]] Result<TournamentCard> in_status(const std::string& id, TournamentStatus status);
+
+  MatchHost& host_;
+  Matches& matches_;
+  CallOff call_off_;
+  Now now_;
+  std::map<std::string, Running> running_;
+};
+
+}  // namespace poolhall::net

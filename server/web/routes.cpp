@@ -1,0 +1,156 @@
+#include "server/web/routes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+#include "protocol/json_writer.hpp"
+
+namespace poolhall::web {
+
+using protocol::JsonWriter;
+
+namespace {
+
+constexpr std::string_view tournament_file =
+    "A tournament file's text (config/README.md), or the same as a JSON object";
+
+constexpr std::array table{
+    Route{"GET", "/healthz", "Whether the server works; 503 while the database takes nothing"},
+    Route{.method = "GET",
+          .path = "/metrics",
+          .summary = "Figures in Prometheus' text format",
+          .type = "text/plain"},
+    Route{"GET", "/api/openapi.json", "This document"},
+    Route{"GET", "/api/live", "The games that go on"},
+    Route{"GET", "/api/agents", "Who is known"},
+    Route{"GET", "/api/tournaments", "All tournaments"},
+    Route{"GET", "/api/tournaments/{tournament}", "A tournament: entries, matches, results"},
+    Route{"GET", "/api/games/{game}",
+          "A game: terms, turns, result; its key once its match is over"},
+    Route{"GET", "/api/games/{game}/shots/{turn}",
+          "A turn: the state before and after, the events"},
+    Route{"POST", "/api/admin/tournaments", "Make a tournament; it is open until it is started",
+          Route::For::host, tournament_file, "201"},
+    Route{"POST", "/api/admin/tournaments/{tournament}/start", "Start an open tournament",
+          Route::For::host},
+    Route{"POST", "/api/admin/tournaments/{tournament}/pause",
+          "Begin no other game until it is resumed", Route::For::host},
+    Route{"POST", "/api/admin/tournaments/{tournament}/resume", "Go on with a paused tournament",
+          Route::For::host},
+    Route{"POST", "/api/admin/tournaments/{tournament}/abort",
+          "End a tournament now; its running games are void", Route::For::host},
+    Route{"POST", "/api/admin/agents", "Add an agent; the answer has its token, this once",
+          Route::For::host, "{\"name\": \"...\"}, 1 to 32 of A-Z a-z 0-9 . _ -", "201"},
+    Route{"POST", "/api/admin/games/{game}/void",
+          "End a running game without a result; its match plays it again", Route::For::host, "",
+          "202"},
+};
+
+bool is_parameter(std::string_view segment) {
+  return segment.starts_with('{');
+}
+
+// The next segment, taken off the path; both begin with a slash.
+std::string_view take_segment(std::string_view& path) {
+  path.remove_prefix(1);
+  const std::string_view segment = path.substr(0, path.find('/'));
+  path.remove_prefix(segment.size());
+  return segment;
+}
+
+bool fits(std::string_view pattern, std::string_view path) {
+  while (pattern.starts_with('/') && path.starts_with('/')) {
+    const std::string_view wanted = take_segment(pattern);
+    const std::string_view came = take_segment(path);
+    if (is_parameter(wanted) ? came.empty() : came != wanted) {
+      return false;
+    }
+  }
+  return pattern.empty() && path.empty();
+}
+
+void write_parameters(JsonWriter& out, std::string_view path) {
+  out.key("parameters").begin_array();
+  while (path.starts_with('/')) {
+    const std::string_view segment = take_segment(path);
+    if (!is_parameter(segment)) {
+      continue;
+    }
+    const std::string_view name = segment.substr(1, segment.size() - 2);
+    out.begin_object().key("name").string(name).key("in").string("path");
+    out.key("required").boolean(true).key("schema").begin_object();
+    out.key("type").string(name == "tournament" ? "string" : "integer").end_object().end_object();
+  }
+  out.end_array();
+}
+
+void write_response(JsonWriter& out, std::string_view status, std::string_view meaning,
+                    std::string_view type) {
+  out.key(status).begin_object().key("description").string(meaning);
+  out.key("content").begin_object().key(type).begin_object().end_object().end_object();
+  out.end_object();
+}
+
+void write_operation(JsonWriter& out, const Route& route) {
+  std::string method{route.method};
+  std::transform(method.begin(), method.end(), method.begin(),
+                 [](char c) { return static_cast<char>(c - 'A' + 'a'); });
+  out.key(method).begin_object().key("summary").string(route.summary);
+  write_parameters(out, route.path);
+  if (!route.request.empty()) {
+    out.key("requestBody").begin_object().key("required").boolean(true);
+    out.key("description").string(route.request).key("content").begin_object();
+    out.key("*/*").begin_object().end_object().end_object().end_object();
+  }
+  out.key("responses").begin_object();
+  write_response(out, route.answers, route.summary, route.type);
+  write_response(out, "default", "{\"error\": {\"code\": ..., \"reason\": ...}}",
+                 "application/json");
+  out.end_object();
+  if (route.who == Route::For::host) {
+    out.key("security").begin_array().begin_object();
+    out.key("adminToken").begin_array().end_array().end_object().end_array();
+  }
+  out.end_object();
+}
+
+}  // namespace
+
+std::span<const Route> routes() {
+  return table;
+}
+
+Routing route_of(std::string_view method, std::string_view path) {
+  const std::string_view wanted = method == "HEAD" ? "GET" : method;
+  NoRoute missing = NoRoute::path;
+  for (const Route& route : table) {
+    if (!fits(route.path, path)) {
+      continue;
+    }
+    if (route.method == wanted) {
+      return &route;
+    }
+    missing = NoRoute::method;
+  }
+  return missing;
+}
+
+std::string openapi_document() {
+  JsonWriter out;
+  out.begin_object().key("openapi").string("3.1.0").key("info").begin_object();
+  out.key("title").string("Poolhall").key("version").string("1").end_object();
+  out.key("paths").begin_object();
+  for (const Route& route : table) {
+    // One method a path, so that each path stands here once.
+    out.key(route.path).begin_object();
+    write_operation(out, route);
+    out.end_object();
+  }
+  out.end_object().key("components").begin_object().key("securitySchemes").begin_object();
+  out.key("adminToken").begin_object().key("type").string("http");
+  out.key("scheme").string("bearer").end_object().end_object().end_object().end_object();
+  return std::move(out).text();
+}
+
+}  // namespace poolhall::web
