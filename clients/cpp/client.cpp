@@ -132,10 +132,17 @@ class Client::Life : public Outside {
     }
   }
 
+  asio::awaitable<tl::expected<std::unique_ptr<Transport>, ConnectionError>> connect() const {
+    if (options_.tls) {
+      co_return co_await connect_tls(options_.host, options_.port, *options_.tls);
+    }
+    co_return co_await connect_tcp(options_.host, options_.port);
+  }
+
   asio::awaitable<void> live() {
     Backoff backoff(options_.first_backoff, options_.last_backoff);
     while (!end_) {
-      auto transport = co_await connect_tcp(options_.host, options_.port);
+      auto transport = co_await connect();
       if (end_) {
         break;
       }

@@ -11,17 +11,20 @@
 
 #include <chrono>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "clients/cpp/agent.hpp"
 #include "clients/cpp/player.hpp"
+#include "clients/cpp/transport.hpp"
 
 namespace poolhall::client {
 
 struct ClientOptions {
   std::string host = "127.0.0.1";
   std::string port = "7777";
+  std::optional<TlsOptions> tls{};  // unset: plain TCP
   AgentSettings agent{};
   unsigned threads = 1;  // moves that are chosen at the same time, one a game
   // Between two attempts to connect; doubles from the first to the last, with jitter.

@@ -1,7 +1,8 @@
-// Bytes to a server and back: plain TCP. What carries the bytes is behind an interface, so that
-// the rest of the client does not see whether they are encrypted.
+// Bytes to a server and back: plain TCP, or TLS. What carries the bytes is behind an interface, so
+// that the rest of the client does not see whether they are encrypted.
 //
 //   auto transport = co_await connect_tcp("127.0.0.1", "7777");
+//   auto encrypted = co_await connect_tls("pool.example", "7778", {.ca_file = "host.pem"});
 #pragma once
 
 #include <memory>
@@ -37,5 +38,12 @@ class Transport {
 
 [[nodiscard]] boost::asio::awaitable<tl::expected<std::unique_ptr<Transport>, ConnectionError>>
 connect_tcp(std::string host, std::string port);
+
+struct TlsOptions {
+  std::string ca_file{};  // PEM: whose certificates are believed; empty: those the system believes
+};
+// The server's certificate must be good, and for this host.
+[[nodiscard]] boost::asio::awaitable<tl::expected<std::unique_ptr<Transport>, ConnectionError>>
+connect_tls(std::string host, std::string port, TlsOptions options);
 
 }  // namespace poolhall::client

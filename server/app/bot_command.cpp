@@ -24,6 +24,8 @@ namespace {
 struct BotArguments {
   std::string bot;
   std::string connect = "127.0.0.1:7777";
+  bool tls = false;
+  std::string tls_ca;
   std::string token;
   std::string name;
   std::uint64_t seed = 1;
@@ -66,6 +68,9 @@ client::ClientOptions client_options(const BotArguments& arguments, const HostPo
   client::ClientOptions options;
   options.host = server.host;
   options.port = server.port;
+  if (arguments.tls || !arguments.tls_ca.empty()) {
+    options.tls = client::TlsOptions{arguments.tls_ca};
+  }
   options.threads = arguments.threads;
   options.stop_signals = {SIGTERM, SIGINT};
   options.agent.name = arguments.name.empty() ? arguments.bot : arguments.name;
@@ -119,6 +124,9 @@ void add_bot_command(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("bot", "Play as a house bot on a server");
   command->add_option("NAME", arguments->bot, "The bot: random or greedy")->required();
   command->add_option("--connect", arguments->connect, "The server's agents' port, HOST:PORT");
+  command->add_flag("--tls", arguments->tls, "Connect by TLS");
+  command->add_option("--tls-ca", arguments->tls_ca,
+                      "PEM file of certificates to believe instead of the system's; means --tls");
   command
       ->add_option("--token", arguments->token,
                    "The agent's token; without one a new agent is registered. Better in the "

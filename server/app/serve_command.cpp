@@ -26,6 +26,9 @@ struct ServeArguments {
   std::optional<std::string> database;
   std::optional<std::string> admin_token_file;
   std::optional<std::string> ready_file;
+  std::optional<std::string> tls_listen;
+  std::optional<std::string> tls_certificate;
+  std::optional<std::string> tls_key;
   bool log_json = false;
   bool plain_beyond_loopback = false;
 };
@@ -71,6 +74,11 @@ void override_with(const ServeArguments& arguments, settings::ServerSettings& se
   settings.http = arguments.http.value_or(settings.http);
   settings.database = arguments.database.value_or(settings.database);
   settings.admin_token_file = arguments.admin_token_file.value_or(settings.admin_token_file);
+  settings.tls.listen = arguments.tls_listen.value_or(settings.tls.listen);
+  settings.tls.certificate = arguments.tls_certificate.value_or(settings.tls.certificate);
+  settings.tls.key = arguments.tls_key.value_or(settings.tls.key);
+  settings.plain_beyond_loopback =
+      settings.plain_beyond_loopback || arguments.plain_beyond_loopback;
   settings.log.json = settings.log.json || arguments.log_json;
 }
 
@@ -88,10 +96,8 @@ int run_server(const ServeArguments& arguments) {
   if (!listen) {
     return fail("--listen: got \"" + options.settings.listen + "\", expected HOST:PORT", 2);
   }
-  if (!net::is_loopback(*listen) && !arguments.plain_beyond_loopback) {
-    return fail(options.settings.listen +
-                    " is open to others and not encrypted; --plain-beyond-loopback allows it",
-                2);
+  if (const auto reason = net::exposed(options.settings)) {
+    return fail(*reason, 2);
   }
   if (arguments.ready_file) {
     options.ready_file = *arguments.ready_file;
@@ -99,6 +105,7 @@ int run_server(const ServeArguments& arguments) {
   options.stored_tournaments = net::StoredTournaments::taken_up;
   options.house_bots = bots::house_bot_names();
   std::signal(SIGPIPE, SIG_IGN);  // whoever read the log may go, games do not end for that
+  std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow is a full disk, no reason to die
   set_up_log(options.settings.log);
   net::Server server(std::move(options));
   if (const auto started = server.start(); !started) {
@@ -121,6 +128,11 @@ void add_serve_command(CLI::App& app, int& exit_code) {
                       "File with the token of admin calls");
   command->add_option("--ready-file", arguments->ready_file,
                       "Written when the server listens: addresses and process id as JSON");
+  command->add_option("--tls-listen", arguments->tls_listen,
+                      "Agents' port with TLS, HOST:PORT; wants certificate and key");
+  command->add_option("--tls-certificate", arguments->tls_certificate,
+                      "PEM file; the page is served by HTTPS with it");
+  command->add_option("--tls-key", arguments->tls_key, "PEM file: the certificate's private key");
   command->add_flag("--log-json", arguments->log_json, "Log one JSON object a line");
   command->add_flag("--plain-beyond-loopback", arguments->plain_beyond_loopback,
                     "Allow unencrypted connections from other machines");

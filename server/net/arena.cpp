@@ -20,6 +20,8 @@ namespace {
 // How long shots in flight may take once the server stops, and how long last lines.
 constexpr std::chrono::seconds longest_stop{10};
 constexpr std::chrono::milliseconds last_lines{300};
+// Connections beyond the bounds that are told so at a time.
+constexpr std::size_t most_turned_away = 64;
 
 }  // namespace
 
@@ -121,9 +123,22 @@ void Arena::begin(const HouseBots::Settings& bots) {
   }
 }
 
-void Arena::accept(boost::asio::ip::tcp::socket socket, std::function<void()> gone) {
+void Arena::turn_away(Channel channel, const protocol::Error& error) {
+  if (turned_away_ >= most_turned_away) {
+    return;  // too many to be polite
+  }
+  ++turned_away_;
+  const auto connection = std::make_shared<Connection>(
+      std::move(channel), ConnectionId{next_connection_++}, connections_);
+  connection->on_gone([this] { --turned_away_; });
+  connection->start({});
+  connection->close(std::make_shared<const std::string>(protocol::encode_error({}, error)),
+                    std::string{protocol::name(error.code)});
+}
+
+void Arena::accept(Channel channel, std::function<void()> gone) {
   const ConnectionId id{next_connection_++};
-  auto connection = std::make_shared<Connection>(std::move(socket), id, connections_);
+  auto connection = std::make_shared<Connection>(std::move(channel), id, connections_);
   connection->on_gone(std::move(gone));
   spdlog::info("connection {} from {}", number(id), connection->peer());
   const auto session = std::make_shared<Session>(std::move(connection), *this);

@@ -62,7 +62,9 @@ class Arena final : public Lobby {
   // Restored games go on; house bots may start.
   void begin(const HouseBots::Settings& bots);
   // A new connection; `gone` is called when its socket is closed.
-  void accept(boost::asio::ip::tcp::socket socket, std::function<void()> gone);
+  void accept(Channel channel, std::function<void()> gone);
+  // One that there is no room for; it hears why once its handshake is done.
+  void turn_away(Channel channel, const protocol::Error& error);
   // No new turns; when nothing is in flight and everyone is told, `then`.
   void stop(std::function<void()> then);
   void storage_health(const storage::WriterHealth& health);
@@ -148,6 +150,7 @@ class Arena final : public Lobby {
   std::map<storage::AgentId, std::uint64_t> house_choices_;  // when each was chosen last
   std::uint64_t house_choice_ = 0;
   std::uint64_t next_connection_ = 1;
+  std::size_t turned_away_ = 0;  // that are still being told
   std::uint64_t games_over_ = 0;
   bool storage_in_trouble_ = false;
   Stage stage_ = Stage::running;

@@ -23,6 +23,7 @@ using asio::ip::tcp;
 namespace {
 
 constexpr std::size_t lines_in_one_write = 64;
+constexpr std::size_t tls_record = 16 * 1024;  // the most that one holds
 // How long an ended connection may take to read its last line.
 constexpr std::chrono::seconds linger{2};
 // A peer that does not read closes its window, and its system answers the probes of it, at most
@@ -31,10 +32,10 @@ constexpr std::chrono::seconds longest_probe_pause{150};
 
 }  // namespace
 
-Connection::Connection(tcp::socket socket, ConnectionId id, ConnectionContext& context)
-    : socket_(std::move(socket)),
+Connection::Connection(Channel channel, ConnectionId id, ConnectionContext& context)
+    : channel_(std::move(channel)),
       id_(id),
-      peer_(peer_name(socket_)),
+      peer_(peer_name(channel_.socket())),
       context_(context),
       splitter_(context.limits.line_bytes_before_login) {}
 
@@ -45,10 +46,8 @@ Connection::~Connection() {
 
 void Connection::start(std::weak_ptr<Handler> handler) {
   handler_ = std::move(handler);
-  boost::system::error_code error;
-  socket_.non_blocking(true, error);
-  set_agent_options(socket_, context_.limits.tcp_user_timeout);
-  asio::co_spawn(socket_.get_executor(), read_loop(shared_from_this()), asio::detached);
+  set_agent_options(channel_.socket(), context_.limits.tcp_user_timeout);
+  asio::co_spawn(channel_.socket().get_executor(), read_loop(shared_from_this()), asio::detached);
 }
 
 void Connection::send(Line line) {
@@ -97,22 +96,34 @@ void Connection::abort(std::string why) {
 
 void Connection::read_arrived() {
   boost::system::error_code error;
-  std::size_t arrived = socket_.available(error);
+  std::size_t arrived = channel_.socket().available(error);
+  if (channel_.has_unread()) {
+    arrived = std::max(arrived, tls_record);
+  }
+  // TLS gives fewer bytes than arrive: it then says that there are no more.
   std::vector<char> buffer(std::min<std::size_t>(arrived, 64 * 1024));
   while (!error && arrived > 0 && state_ == State::open) {
-    const std::size_t got =
-        socket_.read_some(asio::buffer(buffer.data(), std::min(arrived, buffer.size())), error);
-    if (!error) {
-      take({buffer.data(), got}, std::chrono::steady_clock::now());
-      arrived -= got;
+    const Channel::Result got = channel_.read({buffer.data(), std::min(arrived, buffer.size())});
+    if (got.state != Channel::State::done) {
+      return;
     }
+    take({buffer.data(), got.bytes}, std::chrono::steady_clock::now());
+    arrived -= got.bytes;
   }
 }
 
 asio::awaitable<void> Connection::read_loop(std::shared_ptr<Connection> self) {
-  while (socket_.is_open()) {
-    const auto [error] = co_await socket_.async_wait(tcp::socket::wait_read, awaited);
-    if (error || !read_once()) {
+  while (channel_.socket().is_open()) {
+    if (channel_.has_unread()) {
+      co_await asio::post(channel_.socket().get_executor(), asio::use_awaitable);
+    } else {
+      const auto what = awaits_room_ ? tcp::socket::wait_write : tcp::socket::wait_read;
+      const auto [error] = co_await channel_.socket().async_wait(what, awaited);
+      if (error) {
+        break;
+      }
+    }
+    if (!channel_.socket().is_open() || !read_once()) {
       break;
     }
   }
@@ -122,16 +133,16 @@ asio::awaitable<void> Connection::read_loop(std::shared_ptr<Connection> self) {
 
 // False at the end of the stream. One read a turn, so that nobody's flood keeps others waiting.
 bool Connection::read_once() {
-  boost::system::error_code error;
-  const std::size_t got = socket_.read_some(asio::buffer(context_.scratch), error);
-  if (error == asio::error::would_block || error == asio::error::try_again) {
-    return true;
+  const Channel::Result got = channel_.read(context_.scratch);
+  awaits_room_ = got.state == Channel::State::needs_output;
+  if (std::exchange(awaits_input_, false)) {
+    schedule_flush();
   }
-  if (error) {
+  if (got.state == Channel::State::ended) {
     return false;
   }
-  if (state_ == State::open) {
-    take({context_.scratch.data(), got}, std::chrono::steady_clock::now());
+  if (got.state == Channel::State::done && state_ == State::open) {
+    take({context_.scratch.data(), got.bytes}, std::chrono::steady_clock::now());
   }
   return true;  // what a closing connection still sends is read and forgotten
 }
@@ -178,7 +189,7 @@ void Connection::schedule_flush() {
     return;
   }
   flush_pending_ = true;
-  asio::post(socket_.get_executor(), [self = shared_from_this()] { self->flush(); });
+  asio::post(channel_.socket().get_executor(), [self = shared_from_this()] { self->flush(); });
 }
 
 // TCP_USER_TIMEOUT ends a connection whose peer acknowledges nothing, dead or not: a bot that
@@ -199,22 +210,22 @@ void Connection::watch_delivery() {
 
 void Connection::check_delivery() {
   delivery_check_.cancel();
-  if (!socket_.is_open()) {
+  if (!channel_.socket().is_open()) {
     return;
   }
   const auto timeout = context_.limits.tcp_user_timeout;
-  const Delivery delivery = delivery_of(socket_);
+  const Delivery delivery = delivery_of(channel_.socket());
   const auto pause = delivery.since_last_acknowledgement;
   if (delivery.unacknowledged_bytes == 0) {
     if (std::exchange(patient_, false)) {
-      set_user_timeout(socket_, timeout);
+      set_user_timeout(channel_.socket(), timeout);
     }
   } else if (patient_ && pause > longest_probe_pause) {
     abort("the peer's system does not answer any more");
   } else {
     if (!patient_ && pause < timeout * 3 / 4) {
       patient_ = true;
-      set_user_timeout(socket_, std::chrono::milliseconds{0});
+      set_user_timeout(channel_.socket(), std::chrono::milliseconds{0});
     }
     watch_delivery();
   }
@@ -222,22 +233,23 @@ void Connection::check_delivery() {
 
 void Connection::flush() {
   flush_pending_ = false;
-  if (writing_ || !socket_.is_open()) {
+  if (writing_ || !channel_.socket().is_open()) {
     return;
   }
   watch_delivery();
   if (write_some()) {
     finish_sending();
-  } else if (socket_.is_open()) {
+  } else if (channel_.socket().is_open() && !awaits_input_) {
     writing_ = true;
-    asio::co_spawn(socket_.get_executor(), write_loop(shared_from_this()), asio::detached);
+    asio::co_spawn(channel_.socket().get_executor(), write_loop(shared_from_this()),
+                   asio::detached);
   }
 }
 
 asio::awaitable<void> Connection::write_loop(std::shared_ptr<Connection> self) {
-  while (socket_.is_open()) {
-    const auto [error] = co_await socket_.async_wait(tcp::socket::wait_write, awaited);
-    if (error || write_some()) {
+  while (channel_.socket().is_open()) {
+    const auto [error] = co_await channel_.socket().async_wait(tcp::socket::wait_write, awaited);
+    if (error || write_some() || awaits_input_) {
       break;
     }
   }
@@ -256,17 +268,16 @@ bool Connection::write_some() {
       const std::size_t skip = count == 0 ? out_offset_ : 0;
       buffers[count] = asio::buffer(*out_[count]) + skip;
     }
-    boost::system::error_code error;
-    const std::size_t bytes =
-        socket_.write_some(std::span<const asio::const_buffer>(buffers.data(), count), error);
-    if (error == asio::error::would_block || error == asio::error::try_again) {
+    const Channel::Result sent = channel_.write({buffers.data(), count});
+    if (sent.state == Channel::State::ended) {
+      abort("the connection is broken");
       return false;
     }
-    if (error) {
-      abort("the connection is broken: " + error.message());
+    awaits_input_ = sent.state == Channel::State::needs_input;
+    if (sent.state != Channel::State::done) {
       return false;
     }
-    written(bytes);
+    written(sent.bytes);
   }
   return true;
 }
@@ -295,18 +306,16 @@ void Connection::drop_unsent() {
 // Ends the sending half; the rest of what the peer sends is read until it ends too, for a socket
 // closed with bytes unread resets the connection and takes the last line with it.
 void Connection::finish_sending() {
-  if (state_ != State::closing || !socket_.is_open()) {
-    return;
+  if (state_ == State::closing && channel_.socket().is_open()) {
+    channel_.finish();
   }
-  boost::system::error_code error;
-  socket_.shutdown(tcp::socket::shutdown_send, error);
 }
 
 void Connection::tell_closed(std::string why) {
   if (state_ == State::open) {
     state_ = State::closing;
   }
-  asio::post(socket_.get_executor(), [self = shared_from_this(), why = std::move(why)] {
+  asio::post(channel_.socket().get_executor(), [self = shared_from_this(), why = std::move(why)] {
     if (const auto handler = self->handler_.lock()) {
       handler->on_closed(why);
     }
@@ -322,8 +331,7 @@ void Connection::close_socket() {
   line_deadline_.cancel();
   linger_deadline_.cancel();
   delivery_check_.cancel();
-  boost::system::error_code error;
-  socket_.close(error);
+  channel_.close();
   out_.clear();
   queued_bytes_ = 0;
   if (on_gone_) {

@@ -1,7 +1,7 @@
 // One agent's socket: lines in, a bounded queue of lines out, and an end with a stated reason.
 // It knows nothing of what the lines mean.
 //
-//   auto connection = std::make_shared<Connection>(std::move(socket), id, context);
+//   auto connection = std::make_shared<Connection>(std::move(channel), id, context);
 //   connection->start(session);          // lines go to session.on_line
 //   connection->send(line);              // never blocks
 //   connection->close(last_line, "superseded");
@@ -11,7 +11,6 @@
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
-#include <boost/asio/ip/tcp.hpp>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -22,6 +21,7 @@
 
 #include "protocol/framing.hpp"
 #include "protocol/limits.hpp"
+#include "server/net/channel.hpp"
 #include "server/net/deadline_queue.hpp"
 
 namespace poolhall::net {
@@ -54,7 +54,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
     virtual void on_closed(std::string_view why) = 0;  // once, never from within send or close
   };
 
-  Connection(boost::asio::ip::tcp::socket socket, ConnectionId id, ConnectionContext& context);
+  Connection(Channel channel, ConnectionId id, ConnectionContext& context);
   ~Connection();
   Connection(const Connection&) = delete;
   Connection& operator=(const Connection&) = delete;
@@ -96,7 +96,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void tell_closed(std::string why);
   void close_socket();
 
-  boost::asio::ip::tcp::socket socket_;
+  Channel channel_;
   ConnectionId id_;
   std::string peer_;
   ConnectionContext& context_;
@@ -110,8 +110,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::size_t queued_bytes_ = 0;
   State state_ = State::open;
   bool flush_pending_ = false;
-  bool writing_ = false;  // write_loop runs
-  bool patient_ = false;  // the peer reads nothing and its system says that it lives
+  bool writing_ = false;       // write_loop runs
+  bool awaits_input_ = false;  // TLS cannot write before it has read
+  bool awaits_room_ = false;   // nor read before it has written
+  bool patient_ = false;       // the peer reads nothing and its system says that it lives
   std::function<void()> on_gone_;
 };
 

@@ -33,8 +33,15 @@ bool means_no_resources(const boost::system::error_code& error) {
 
 }  // namespace
 
-Listener::Listener(asio::io_context& io, const protocol::Limits& limits, Accept accept)
-    : io_(io), limits_(limits), accept_(std::move(accept)), acceptor_(io), pause_(io) {
+Listener::Listener(asio::io_context& io, const protocol::Limits& limits, ConnectionCount& count,
+                   Accept accept, TurnAway turn_away)
+    : io_(io),
+      limits_(limits),
+      accept_(std::move(accept)),
+      acceptor_(io),
+      pause_(io),
+      count_(count),
+      turn_away_(std::move(turn_away)) {
   reserve();
 }
 
@@ -99,7 +106,7 @@ asio::awaitable<void> Listener::accept_loop() {
 
 // The reserved descriptor makes room to tell one of those that wait; the others are told in turn.
 asio::awaitable<void> Listener::out_of_descriptors() {
-  spdlog::warn("no file descriptors left at {} connections", open_);
+  spdlog::warn("no file descriptors left at {} connections", count_.open);
   if (reserved_ >= 0) {
     ::close(std::exchange(reserved_, -1));
   }
@@ -121,12 +128,13 @@ void Listener::accepted(tcp::socket socket) {
   if (error) {
     return;  // gone already
   }
-  if (open_ >= limits_.connections) {
-    refuse(std::move(socket), {ErrorCode::server_full, "",
-                               fmt::format("the server has {} connections, its bound", open_)});
+  if (count_.open >= limits_.connections) {
+    refuse(std::move(socket),
+           {ErrorCode::server_full, "",
+            fmt::format("the server has {} connections, its bound", count_.open)});
     return;
   }
-  std::uint32_t& of_address = per_address_[peer.address()];
+  std::uint32_t& of_address = count_.per_address[peer.address()];
   if (of_address >= limits_.connections_per_address) {
     refuse(
         std::move(socket),
@@ -135,12 +143,12 @@ void Listener::accepted(tcp::socket socket) {
     return;
   }
   ++of_address;
-  ++open_;
-  accept_(std::move(socket), [this, address = peer.address()] {
-    --open_;
-    const auto found = per_address_.find(address);
-    if (found != per_address_.end() && --found->second == 0) {
-      per_address_.erase(found);
+  ++count_.open;
+  accept_(std::move(socket), [&count = count_, address = peer.address()] {
+    --count.open;
+    const auto found = count.per_address.find(address);
+    if (found != count.per_address.end() && --found->second == 0) {
+      count.per_address.erase(found);
     }
   });
 }
@@ -149,6 +157,10 @@ void Listener::accepted(tcp::socket socket) {
 // unread bytes would reset the connection, and the line with it.
 void Listener::refuse(tcp::socket socket, const Error& error) {
   ++refused_;
+  if (turn_away_) {
+    turn_away_(std::move(socket), error);
+    return;
+  }
   const std::string line = protocol::encode_error({}, error);
   boost::system::error_code ignored;
   socket.non_blocking(true, ignored);

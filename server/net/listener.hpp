@@ -1,9 +1,8 @@
 // Accepts connections, counts them, and goes on accepting whatever happens: refusals are said in
 // the protocol, and running out of file descriptors is waited out.
 //
-//   Listener listener{io, limits, [&](tcp::socket socket, auto gone) { arena.accept(...); }};
-//   if (auto bound = listener.open(endpoint); !bound) die(bound.error());
-//   listener.start();
+//   Listener listener{io, limits, count, [&](tcp::socket socket, auto gone) { arena.accept(...);
+//   }}; if (auto bound = listener.open(endpoint); !bound) die(bound.error()); listener.start();
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
@@ -24,13 +23,24 @@
 
 namespace poolhall::net {
 
+// How many connections there are, on all ports together.
+struct ConnectionCount {
+  std::size_t open = 0;
+  std::map<boost::asio::ip::address, std::uint32_t> per_address{};
+};
+
 class Listener {
  public:
   // `gone` is to be called when the socket has been closed.
   using Accept =
       std::function<void(boost::asio::ip::tcp::socket socket, std::function<void()> gone)>;
+  // Says why, and ends.
+  using TurnAway =
+      std::function<void(boost::asio::ip::tcp::socket socket, const protocol::Error& error)>;
 
-  Listener(boost::asio::io_context& io, const protocol::Limits& limits, Accept accept);
+  // Without `turn_away` refusals are written in plain text.
+  Listener(boost::asio::io_context& io, const protocol::Limits& limits, ConnectionCount& count,
+           Accept accept, TurnAway turn_away = {});
   ~Listener();
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
@@ -56,9 +66,9 @@ class Listener {
   boost::asio::ip::tcp::acceptor acceptor_;
   boost::asio::steady_timer pause_;
   int reserved_ = -1;  // a descriptor to give up when there are no others
-  std::size_t open_ = 0;
+  ConnectionCount& count_;
+  TurnAway turn_away_;
   std::uint64_t refused_ = 0;
-  std::map<boost::asio::ip::address, std::uint32_t> per_address_;
 };
 
 }  // namespace poolhall::net

@@ -339,8 +339,7 @@ void LiveGame::answer_from(const storage::TurnRecord& row, const GameRequest& re
 
 void answer_from_row(const storage::TurnRecord& row, const Asker& asker, Seat seat,
                      const std::variant<protocol::Shot, protocol::Decide>& what) {
-  const auto session = asker.session.lock();
-  const Side side{seat, session ? session->detail() : protocol::EventDetail::full};
+  const Side side = side_of(seat, asker.session.lock());
   const auto* shot = std::get_if<protocol::Shot>(&what);
   const auto conflict = shot != nullptr ? match::repeated_shot(row, seat, *shot)
                                         : match::repeated_decision(row, seat, std::get<1>(what));

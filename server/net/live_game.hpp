@@ -111,7 +111,6 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   void watch_flag();
   void flag_due();
   [[nodiscard]] std::shared_ptr<Session> session_of(Seat seat) const;
-  [[nodiscard]] Side side_of(Seat seat, const Asker& asker) const;
   [[nodiscard]] storage::Micros lag_of(Seat seat) const;
   void push(Seat seat, const Notification& notification) const;
   [[nodiscard]] protocol::GameSnapshot<Outgoing> snapshot_for(Seat seat) const;
@@ -133,6 +132,8 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   std::optional<match::Store> store_;  // being stored
   std::uint32_t failures_ = 0;         // of storing, in a row
 };
+
+[[nodiscard]] Side side_of(Seat seat, const std::shared_ptr<Session>& session);
 
 // What a stored turn answers to a request that came again; also for games long over.
 void answer_from_row(const storage::TurnRecord& row, const Asker& asker, Seat seat,

@@ -42,18 +42,18 @@ void LiveGame::tell(const match::Store& what) {
 void LiveGame::tell_shot(const storage::TurnRecord& row) {
   const Seat by = row.seat;
   const auto asked = asker_.session.lock();
-  asker_.reply(
-      protocol::ShotReply<Outgoing>{shot_of(row, side_of(by, asker_)), Repetition::first_time});
+  asker_.reply(protocol::ShotReply<Outgoing>{shot_of(row, side_of(by, asker_.session.lock())),
+                                             Repetition::first_time});
   for (const Asker& asker : std::exchange(joined_, {})) {
-    asker.reply(
-        protocol::ShotReply<Outgoing>{shot_of(row, side_of(by, asker)), Repetition::duplicate});
+    asker.reply(protocol::ShotReply<Outgoing>{shot_of(row, side_of(by, asker.session.lock())),
+                                              Repetition::duplicate});
   }
   for (const Seat seat : both_seats) {
     const auto session = session_of(seat);
     // The shooter has it in its reply; if that went to a connection that was taken over since,
     // the new one learns of it in this way.
     if (session && (seat != by || session != asked)) {
-      session->push(shot_of(row, {seat, session->detail()}));
+      session->push(shot_of(row, side_of(seat, session)));
     }
   }
 }
@@ -61,16 +61,16 @@ void LiveGame::tell_shot(const storage::TurnRecord& row) {
 void LiveGame::tell_decision(const storage::TurnRecord& row) {
   const Seat by = row.seat;
   const auto asked = asker_.session.lock();
-  asker_.reply(protocol::DecideReply<Outgoing>{decision_of(row, side_of(by, asker_)),
+  asker_.reply(protocol::DecideReply<Outgoing>{decision_of(row, side_of(by, asker_.session.lock())),
                                                Repetition::first_time});
   for (const Asker& asker : std::exchange(joined_, {})) {
-    asker.reply(protocol::DecideReply<Outgoing>{decision_of(row, side_of(by, asker)),
+    asker.reply(protocol::DecideReply<Outgoing>{decision_of(row, side_of(by, asker.session.lock())),
                                                 Repetition::duplicate});
   }
   for (const Seat seat : both_seats) {
     const auto session = session_of(seat);
     if (session && (seat != by || session != asked)) {
-      session->push(decision_of(row, {seat, session->detail()}));
+      session->push(decision_of(row, side_of(seat, session)));
     }
   }
 }
@@ -78,7 +78,7 @@ void LiveGame::tell_decision(const storage::TurnRecord& row) {
 void LiveGame::tell_lost_turn(const storage::TurnRecord& row) {
   for (const Seat seat : both_seats) {
     if (const auto session = session_of(seat)) {
-      session->push(lost_turn_of(row, {seat, session->detail()}));
+      session->push(lost_turn_of(row, side_of(seat, session)));
     }
   }
 }
@@ -148,9 +148,8 @@ std::shared_ptr<Session> LiveGame::session_of(Seat seat) const {
   return agent == nullptr ? nullptr : agent->session.lock();
 }
 
-Side LiveGame::side_of(Seat seat, const Asker& asker) const {
-  const auto session = asker.session.lock();
-  return {seat, session ? session->detail() : protocol::EventDetail::full};
+Side side_of(Seat seat, const std::shared_ptr<Session>& session) {
+  return session ? Side{seat, session->detail(), session->event_bytes()} : Side{seat};
 }
 
 storage::Micros LiveGame::lag_of(Seat seat) const {

@@ -17,9 +17,12 @@ std::int64_t whole_ms(storage::Micros time) {
   return std::chrono::floor<std::chrono::milliseconds>(time).count();
 }
 
-RawJson events_for(const storage::ShotPart& shot, protocol::EventDetail detail) {
-  return RawJson{detail == protocol::EventDetail::summary ? protocol::summary_of(shot.events)
-                                                          : shot.events};
+RawJson events_for(const storage::ShotPart& shot, const Side& reader) {
+  if (reader.detail == protocol::EventDetail::full && shot.events.size() <= reader.event_bytes) {
+    return RawJson{shot.events};
+  }
+  std::string summary = protocol::summary_of(shot.events);
+  return RawJson{summary.size() <= reader.event_bytes ? std::move(summary) : std::string{"[]"}};
 }
 
 protocol::Legal legal_in(const rules::GameState& state) {
@@ -136,7 +139,7 @@ protocol::GameShot<Outgoing> shot_of(const storage::TurnRecord& row, const Side&
   shot.executed = played.executed;
   shot.moved = played.moved;
   shot.ruling = RawJson{row.ruling.value_or("null")};
-  shot.events = events_for(played, reader.detail);
+  shot.events = events_for(played, reader);
   shot.state = RawJson{row.state_after};
   shot.clock = clocks_after(row, reader.seat);
   return shot;

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "protocol/limits.hpp"
 #include "protocol/messages.hpp"
 #include "server/match/game.hpp"
 #include "server/net/deadline_queue.hpp"
@@ -20,6 +21,9 @@ using rules::Seat;
 struct Side {
   Seat seat = Seat::first;
   protocol::EventDetail detail = protocol::EventDetail::full;
+  // Of a shot's events, so that the line is no longer than the server's lines may be: a longer log
+  // goes without its states, and one that is still too long goes empty.
+  std::size_t event_bytes = protocol::Limits{}.server_line_bytes;
 };
 
 // What every message of a game's terms says alike.

@@ -20,6 +20,7 @@
 #include "server/net/figures.hpp"
 #include "server/net/listener.hpp"
 #include "server/net/socket_options.hpp"
+#include "server/net/tls.hpp"
 #include "server/storage/sqlite_database.hpp"
 #include "server/web/http_server.hpp"
 
@@ -51,6 +52,10 @@ Endpoint reachable(Endpoint endpoint) {
     endpoint.host = "::1";
   }
   return endpoint;
+}
+
+std::string quoted(const std::optional<Endpoint>& endpoint) {
+  return endpoint ? '"' + to_string(*endpoint) + '"' : "null";
 }
 
 tl::expected<Endpoint, std::string> endpoint_of(const std::string& text) {
@@ -105,6 +110,24 @@ bool is_loopback(const Endpoint& endpoint) {
   return boost::asio::ip::make_address(endpoint.host, error).is_loopback();
 }
 
+std::optional<std::string> exposed(const settings::ServerSettings& settings) {
+  if (settings.plain_beyond_loopback) {
+    return std::nullopt;
+  }
+  const bool encrypted_page = !settings.tls.certificate.empty();
+  for (const std::string& address :
+       {settings.listen, encrypted_page ? std::string{} : settings.http}) {
+    const auto endpoint = parse_endpoint(address);
+    if (endpoint && !is_loopback(*endpoint)) {
+      return fmt::format(
+          "{} is open to others and not encrypted; tls.certificate and tls.listen encrypt, "
+          "--plain-beyond-loopback allows it",
+          address);
+    }
+  }
+  return std::nullopt;
+}
+
 std::string to_string(const Endpoint& endpoint) {
   const bool v6 = endpoint.host.find(':') != std::string::npos;
   return v6 ? fmt::format("[{}]:{}", endpoint.host, endpoint.port)
@@ -130,11 +153,13 @@ class Server::Impl {
   }
   [[nodiscard]] Endpoint agents() const { return agents_; }
   [[nodiscard]] std::optional<Endpoint> page() const { return page_; }
+  [[nodiscard]] std::optional<Endpoint> tls_agents() const { return tls_agents_; }
 
  private:
   tl::expected<void, std::string> open_database();
   tl::expected<void, std::string> open_desk();
   tl::expected<void, std::string> listen();
+  tl::expected<void, std::string> listen_tls();
   tl::expected<void, std::string> listen_http();
   tl::expected<void, std::string> say_ready();
   void watch_signals();
@@ -149,10 +174,14 @@ class Server::Impl {
   std::unique_ptr<Arena> arena_;
   std::unique_ptr<TournamentDesk> desk_;
   std::unique_ptr<web::Admin> admin_;
+  ConnectionCount connections_;
+  std::unique_ptr<TlsContext> tls_;
   std::unique_ptr<Listener> listener_;
+  std::unique_ptr<Listener> tls_listener_;
   std::unique_ptr<asio::signal_set> signals_;
   std::unique_ptr<web::HttpServer> http_;
   Endpoint agents_;
+  std::optional<Endpoint> tls_agents_;
   std::optional<Endpoint> page_;
   bool stopping_ = false;
   bool shut_ = false;
@@ -170,6 +199,9 @@ tl::expected<void, std::string> Server::Impl::start() {
   if (auto listening = listen(); !listening) {
     return listening;
   }
+  if (auto listening = listen_tls(); !listening) {
+    return listening;
+  }
   if (auto listening = listen_http(); !listening) {
     return listening;
   }
@@ -182,10 +214,14 @@ tl::expected<void, std::string> Server::Impl::start() {
     desk_->take_up();
   }
   listener_->start();
+  if (tls_listener_) {
+    tls_listener_->start();
+  }
   if (http_) {
     http_->start();
   }
-  spdlog::info("agents on {}, page on {}, database {}, process {}", to_string(agents_),
+  spdlog::info("agents on {}, by TLS on {}, page on {}, database {}, process {}",
+               to_string(agents_), tls_agents_ ? to_string(*tls_agents_) : "no port",
                page_ ? to_string(*page_) : "no port", options_.settings.database, ::getpid());
   return say_ready();
 }
@@ -197,8 +233,8 @@ tl::expected<void, std::string> Server::Impl::say_ready() {
   said_ready_ = true;
   return write_ready_file(
       *options_.ready_file,
-      fmt::format("{{\"agents\": \"{}\", \"http\": {}, \"pid\": {}}}\n", to_string(agents_),
-                  page_ ? '"' + to_string(*page_) + '"' : "null", ::getpid()));
+      fmt::format("{{\"agents\": \"{}\", \"agents_tls\": {}, \"http\": {}, \"pid\": {}}}\n",
+                  to_string(agents_), quoted(tls_agents_), quoted(page_), ::getpid()));
 }
 
 tl::expected<void, std::string> Server::Impl::open_database() {
@@ -250,14 +286,47 @@ tl::expected<void, std::string> Server::Impl::listen() {
     return tl::unexpected(endpoint.error());
   }
   listener_ =
-      std::make_unique<Listener>(io_, options_.settings.limits,
+      std::make_unique<Listener>(io_, options_.settings.limits, connections_,
                                  [this](asio::ip::tcp::socket socket, std::function<void()> gone) {
-                                   arena_->accept(std::move(socket), std::move(gone));
+                                   arena_->accept({std::move(socket), nullptr}, std::move(gone));
                                  });
   if (auto bound = listener_->open(*endpoint); !bound) {
     return bound;
   }
   agents_ = listener_->endpoint();
+  return {};
+}
+
+tl::expected<void, std::string> Server::Impl::listen_tls() {
+  const settings::TlsSettings& tls = options_.settings.tls;
+  if (tls.listen.empty() && tls.certificate.empty() && tls.key.empty()) {
+    return {};
+  }
+  auto context = load_tls(tls);
+  if (!context) {
+    return tl::unexpected(context.error());
+  }
+  tls_ = std::move(*context);
+  if (tls.listen.empty()) {
+    return {};
+  }
+  const auto endpoint = endpoint_of(tls.listen);
+  if (!endpoint) {
+    return tl::unexpected(endpoint.error());
+  }
+  SSL_CTX* const native = tls_->native_handle();
+  tls_listener_ = std::make_unique<Listener>(
+      io_, options_.settings.limits, connections_,
+      [this, native](asio::ip::tcp::socket socket, std::function<void()> gone) {
+        arena_->accept({std::move(socket), native}, std::move(gone));
+      },
+      [this, native](asio::ip::tcp::socket socket, const protocol::Error& error) {
+        arena_->turn_away({std::move(socket), native}, error);
+      });
+  if (auto bound = tls_listener_->open(*endpoint); !bound) {
+    return bound;
+  }
+  tls_agents_ = tls_listener_->endpoint();
   return {};
 }
 
@@ -308,6 +377,9 @@ void Server::Impl::begin_stop() {
     return;
   }
   listener_->stop();
+  if (tls_listener_) {
+    tls_listener_->stop();
+  }
   if (http_) {
     http_->stop();
   }
@@ -353,6 +425,9 @@ void Server::post(std::function<void(MatchHost&)> work) {
 }
 Endpoint Server::agents_endpoint() const {
   return impl_->agents();
+}
+std::optional<Endpoint> Server::tls_endpoint() const {
+  return impl_->tls_agents();
 }
 std::optional<Endpoint> Server::http_endpoint() const {
   return impl_->page();

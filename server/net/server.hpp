@@ -33,6 +33,8 @@ struct Endpoint {
 // "127.0.0.1:7777", "[::1]:7777"; nothing if it is neither.
 [[nodiscard]] std::optional<Endpoint> parse_endpoint(const std::string& text);
 [[nodiscard]] std::string to_string(const Endpoint& endpoint);
+// Why these ports must not be open: others could read what goes over them. One line.
+[[nodiscard]] std::optional<std::string> exposed(const settings::ServerSettings& settings);
 // Whether only this machine can connect to it.
 [[nodiscard]] bool is_loopback(const Endpoint& endpoint);
 
@@ -62,6 +64,7 @@ class Server {
   void stop();  // in order: shots in flight finish, everyone is told
   void post(std::function<void(MatchHost&)> work);
   [[nodiscard]] Endpoint agents_endpoint() const;
+  [[nodiscard]] std::optional<Endpoint> tls_endpoint() const;
   [[nodiscard]] std::optional<Endpoint> http_endpoint() const;
 
  private:

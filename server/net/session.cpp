@@ -18,6 +18,8 @@ namespace {
 constexpr std::size_t held_lines = 32;
 // Requests refused for coming too fast, in a row, after which the connection is a flood.
 constexpr std::uint32_t flood = 1'000;
+// What a shot's line has beside its events, at most: two states' worth and a ruling.
+constexpr std::size_t beside_events = 16 * 1024;
 
 // A log is read on terminals: nothing of a stranger's gets there but visible ASCII.
 std::string printable(std::string text) {
@@ -63,15 +65,34 @@ void Session::begin() {
 }
 
 void Session::push(const Notification& notification) {
-  connection_->send(line_of(protocol::encode_notification(notification, ++seq_)));
+  send(protocol::encode_notification(notification, ++seq_), nullptr);
 }
 
 void Session::reply(const protocol::RequestId& id, const Reply& answer) {
-  connection_->send(line_of(protocol::encode_reply(id, answer)));
+  send(protocol::encode_reply(id, answer), &id);
 }
 
 void Session::refuse(const protocol::RequestId& id, const Error& error) {
   connection_->send(line_of(protocol::encode_error(id, error)));
+}
+
+void Session::send(std::string line, const protocol::RequestId* id) {
+  const std::size_t most = lobby_.limits().server_line_bytes;
+  if (line.size() <= most + 1) {  // and its end
+    connection_->send(line_of(std::move(line)));
+    return;
+  }
+  spdlog::error("connection {}: a line of {} bytes, more than {}, is not sent: {}",
+                number(connection_->id()), line.size(), most, line.substr(0, 80));
+  if (id != nullptr) {
+    refuse(*id,
+           {ErrorCode::internal, "", "the answer is longer than a line of the server's may be"});
+  }
+}
+
+std::size_t Session::event_bytes() const {
+  const std::size_t most = lobby_.limits().server_line_bytes;
+  return most - std::min(most, beside_events);
 }
 
 void Session::close(const Error& reason) {

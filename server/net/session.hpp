@@ -85,6 +85,8 @@ class Session : public Connection::Handler, public std::enable_shared_from_this<
   [[nodiscard]] const Connection& connection() const { return *connection_; }
   [[nodiscard]] std::optional<storage::AgentId> agent() const { return agent_; }
   [[nodiscard]] protocol::EventDetail detail() const { return detail_; }
+  // How long the events of a shot may be, for the line that they stand in.
+  [[nodiscard]] std::size_t event_bytes() const;
 
   void on_line(std::string_view line, SteadyTime read_at) override;
   void on_line_too_long() override;
@@ -101,6 +103,8 @@ class Session : public Connection::Handler, public std::enable_shared_from_this<
   void take_lag(const std::optional<protocol::RequestId>& id, const protocol::Lag& lag,
                 SteadyTime read_at);
   [[nodiscard]] bool within_rate(const protocol::Incoming& incoming, SteadyTime read_at);
+  // The line as it may be sent: one beyond the limit is left out, or answered with an error.
+  void send(std::string line, const protocol::RequestId* id);
   void bad_line(const protocol::RequestId& id, const protocol::Error& error);
 
   std::shared_ptr<Connection> connection_;

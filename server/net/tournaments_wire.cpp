@@ -14,6 +14,12 @@ using protocol::ErrorCode;
 
 namespace {
 
+constexpr std::size_t listing_bytes = 160;  // without names
+
+bool has_ended(TournamentStatus status) {
+  return status == TournamentStatus::finished || status == TournamentStatus::aborted;
+}
+
 protocol::TournamentStatus wire_status(TournamentStatus status) {
   switch (status) {
     case TournamentStatus::open:
@@ -34,12 +40,31 @@ protocol::TournamentStatus wire_status(TournamentStatus status) {
 
 void Tournaments::list(const Asker& asker) const {
   protocol::TournamentListReply reply;
+  // Those that are over come last, the latest first, as many as a line holds.
+  std::vector<std::pair<const std::string*, const Tournament*>> order;
   for (const auto& [id, tournament] : tournaments_) {
+    order.emplace_back(&id, &tournament);
+  }
+  std::sort(order.begin(), order.end(), [](const auto& a, const auto& b) {
+    const auto rank = [](const Tournament& t) {
+      return std::pair{has_ended(t.record.status), -number(t.record.wire_id)};
+    };
+    return rank(*a.second) < rank(*b.second);
+  });
+  std::size_t room = services_.limits.server_line_bytes / 2;
+  for (const auto& [id, listed] : order) {
+    const Tournament& tournament = *listed;
     protocol::TournamentListing listing = tournament.listing;
     listing.status = wire_status(tournament.record.status);
-    for (const TournamentEntry& entry : entries(id)) {
+    std::size_t bytes = id->size() + listing_bytes;
+    for (const TournamentEntry& entry : entries(*id)) {
+      bytes += entry.name.size() + 3;
       listing.agents.push_back(entry.name);
     }
+    if (bytes > room) {
+      break;
+    }
+    room -= bytes;
     reply.tournaments.push_back(std::move(listing));
   }
   asker.reply(reply);

@@ -103,7 +103,7 @@ tl::expected<std::string, std::string> toml_from_json(std::string_view json) {
   }
   std::string toml;
   if (!append_members(toml, *object, "\n")) {
-    return tl::unexpected("null is no setting: leave out what is not set");
+    return tl::unexpected(std::string("null is no setting: leave out what is not set"));
   }
   return toml + "\n";
 }

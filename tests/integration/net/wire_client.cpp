@@ -2,6 +2,7 @@
 
 #include <arpa/inet.h>
 #include <netinet/in.h>
+#include <openssl/ssl.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -11,6 +12,23 @@
 namespace poolhall::net_tests {
 
 using protocol::ServerMessage;
+
+struct WireClient::Tls {
+  std::unique_ptr<SSL_CTX, decltype(&SSL_CTX_free)> context{SSL_CTX_new(TLS_client_method()),
+                                                            SSL_CTX_free};
+  std::unique_ptr<SSL, decltype(&SSL_free)> ssl{nullptr, SSL_free};
+};
+
+WireClient::WireClient(std::uint16_t port, const std::string& ca_file) : WireClient(port) {
+  tls_ = std::make_unique<Tls>();
+  SSL_CTX_load_verify_file(tls_->context.get(), ca_file.c_str());
+  SSL_CTX_set_verify(tls_->context.get(), SSL_VERIFY_PEER, nullptr);
+  tls_->ssl.reset(SSL_new(tls_->context.get()));
+  SSL_set_fd(tls_->ssl.get(), socket_);
+  if (SSL_connect(tls_->ssl.get()) != 1) {
+    throw std::runtime_error("no TLS handshake");
+  }
+}
 
 WireClient::WireClient(std::uint16_t port) : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
   sockaddr_in address{};
@@ -35,7 +53,9 @@ void WireClient::close() {
 
 void WireClient::send_bytes(std::string_view bytes) {
   while (!bytes.empty()) {
-    const auto sent = ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
+    const auto sent = tls_
+                          ? SSL_write(tls_->ssl.get(), bytes.data(), static_cast<int>(bytes.size()))
+                          : ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL);
     if (sent <= 0) {
       return;  // the server has ended the connection; what it said can still be read
     }
@@ -58,13 +78,15 @@ std::optional<std::string> WireClient::read_line() {
 }
 
 bool WireClient::receive() {
+  const bool has_bytes = tls_ && SSL_pending(tls_->ssl.get()) > 0;
   pollfd readable{socket_, POLLIN, 0};
   const auto wait = std::chrono::milliseconds{patience}.count();
-  if (::poll(&readable, 1, static_cast<int>(wait)) <= 0) {
+  if (!has_bytes && ::poll(&readable, 1, static_cast<int>(wait)) <= 0) {
     throw std::runtime_error("no bytes within the deadline");
   }
   char buffer[65536];
-  const auto got = ::recv(socket_, buffer, sizeof buffer, 0);
+  const auto got = tls_ ? SSL_read(tls_->ssl.get(), buffer, sizeof buffer)
+                        : ::recv(socket_, buffer, sizeof buffer, 0);
   if (got > 0) {
     input_.append(buffer, static_cast<std::size_t>(got));
   }

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <deque>
 #include <map>
+#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -26,6 +27,8 @@ inline constexpr std::chrono::seconds patience{60};
 class WireClient {
  public:
   explicit WireClient(std::uint16_t port);
+  // By TLS, believing the certificates in this PEM file.
+  WireClient(std::uint16_t port, const std::string& ca_file);
   ~WireClient();
   WireClient(const WireClient&) = delete;
   WireClient& operator=(const WireClient&) = delete;
@@ -35,6 +38,7 @@ class WireClient {
   [[nodiscard]] std::optional<std::string> read_line();
   // Everything until the end of the stream.
   [[nodiscard]] std::string read_all();
+  [[nodiscard]] int descriptor() const { return socket_; }
   void close();
 
   // Sends the request; its reply is read by reply_to or call.
@@ -91,7 +95,10 @@ class WireClient {
   bool receive();
   [[nodiscard]] protocol::ServerMessage decode(const std::string& line);
 
+  struct Tls;
+
   int socket_ = -1;
+  std::unique_ptr<Tls> tls_;
   std::string input_;
   std::int64_t next_id_ = 1;
   std::map<std::string, protocol::Method> methods_;
