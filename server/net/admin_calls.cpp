@@ -106,12 +106,15 @@ TournamentDesk::Result<TournamentCard> changed(TournamentDesk& desk, const std::
 
 web::HostCalls host_calls(Arena& arena, Archive& archive, TournamentDesk& desk) {
   web::HostCalls calls;
-  calls.create_tournament = [&desk](const std::string& toml, const Then& then) {
-    then(page_of(created, desk.create(toml)));
+  const auto when_stored = [&arena](Page page, const Then& then) {
+    arena.when_stored([page = std::move(page), then] { then(page); });
   };
-  calls.change_tournament = [&desk](const std::string& id, web::HostCalls::Change change,
-                                    const Then& then) {
-    then(page_of(200, changed(desk, id, change)));
+  calls.create_tournament = [&desk, when_stored](const std::string& toml, const Then& then) {
+    when_stored(page_of(created, desk.create(toml)), then);
+  };
+  calls.change_tournament = [&desk, when_stored](const std::string& id,
+                                                 web::HostCalls::Change change, const Then& then) {
+    when_stored(page_of(200, changed(desk, id, change)), then);
   };
   calls.add_agent = [&arena](const std::string& name, const Then& then) {
     arena.add_agent(name, [name, then](const protocol::Expected<std::string>& token) {

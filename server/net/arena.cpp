@@ -329,6 +329,15 @@ Arena::CalledOff Arena::call_off(protocol::GameId game) {
   return CalledOff::ends;
 }
 
+void Arena::when_stored(std::function<void()> then) {
+  const auto posted = services_.writer.post(
+      [](storage::Database&) { return storage::Expected<void>{}; },
+      [then](const storage::Expected<void>&) { then(); });
+  if (posted != storage::Posted::accepted) {
+    then();
+  }
+}
+
 void Arena::call_off_games_of(const std::string& tournament) {
   const auto games = games_;
   for (const auto& [id, game] : games) {

@@ -76,6 +76,8 @@ class Arena final : public Lobby {
   // Ends it as void; its match plays it again.
   CalledOff call_off(protocol::GameId game);
   void call_off_games_of(const std::string& tournament);
+  // Calls `then` when all that was decided before is stored.
+  void when_stored(std::function<void()> then);
   [[nodiscard]] Matches& matches() { return matches_; }
 
   [[nodiscard]] MatchHost& host() { return tournaments_; }

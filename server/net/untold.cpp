@@ -91,7 +91,8 @@ void Untold::prepare(storage::AgentId agent, Prepared then) {
 
 void Untold::take_up(storage::AgentId agent, const Stored& stored) {
   Ends& ends = ends_[agent];
-  ends.read = true;
+  const auto all = [most = limits_.untold_ends](const auto& found) { return found.size() < most; };
+  ends.read = all(stored.games) && all(stored.matches) && all(stored.tournaments);
   for (const storage::GameRecord& game : stored.games) {
     ends.games.emplace(game.id, game);
   }

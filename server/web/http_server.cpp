@@ -163,8 +163,11 @@ asio::awaitable<Page> HttpServer::page_for(const Request& request) {
         : refusal(405, "method_not_allowed", "see /api/openapi.json for what this path takes");
   }
   if (Admin::is_for(path)) {
-    co_return co_await admin(
-        {path, std::string{request[http::field::authorization]}, request.body()});
+    AdminRequest asked;
+    asked.path = path;
+    asked.authorization = std::string{request[http::field::authorization]};
+    asked.body = request.body();
+    co_return co_await admin(std::move(asked));
   }
   if (path == "/api/openapi.json") {
     co_return Page{200, "application/json", openapi_document()};
