@@ -136,6 +136,7 @@ Channel::Result Channel::read_tls(std::span<char> buffer) {
 
 Channel::Result Channel::write_tls(std::span<const asio::const_buffer> buffers) {
   Result result;
+  has_unsent_ = false;
   for (const asio::const_buffer& buffer : buffers) {
     ERR_clear_error();
     std::size_t sent = 0;
@@ -143,7 +144,8 @@ Channel::Result Channel::write_tls(std::span<const asio::const_buffer> buffers) 
     result.bytes += returned == 1 ? sent : 0;
     if (returned != 1) {
       const State state = state_after(returned);
-      result.state = state == State::needs_output ? State::again : state;
+      has_unsent_ = state == State::needs_output;
+      result.state = has_unsent_ ? State::again : state;
     }
     if (returned != 1 || sent < buffer.size()) {
       break;

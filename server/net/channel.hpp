@@ -39,6 +39,8 @@ class Channel {
   [[nodiscard]] Result write(std::span<const boost::asio::const_buffer> buffers);
   // Bytes that a read gives though the socket has none.
   [[nodiscard]] bool has_unread() const;
+  // The beginning of the last write is under way: the next one must begin with the same bytes.
+  [[nodiscard]] bool has_unsent() const { return has_unsent_; }
   // No more will be written.
   void finish();
   void close();
@@ -57,6 +59,7 @@ class Channel {
 
   boost::asio::ip::tcp::socket socket_;
   std::unique_ptr<SSL, FreeSsl> ssl_;
+  bool has_unsent_ = false;
 };
 
 }  // namespace poolhall::net

@@ -298,7 +298,7 @@ void Connection::written(std::size_t bytes) {
 
 // All but the line that has begun: the peer would not find the beginning of the next.
 void Connection::drop_unsent() {
-  const std::size_t keep = out_offset_ > 0 ? 1 : 0;
+  const std::size_t keep = out_offset_ > 0 || channel_.has_unsent() ? 1 : 0;
   out_.resize(keep);
   queued_bytes_ = keep == 0 ? 0 : out_.front()->size() - out_offset_;
 }

@@ -229,6 +229,9 @@ TEST_F(RepeatedChallenge, SentTwiceInOneBreathMakesOneMatch) {
   while (replies.size() < 2) {
     const auto message = anna.next_message();
     ASSERT_TRUE(message);
+    if (const auto* error = std::get_if<protocol::ErrorMessage>(&*message)) {
+      FAIL() << error->code << " " << error->error.reason;
+    }
     if (const auto* reply = std::get_if<protocol::ReplyMessage>(&*message)) {
       replies[reply->id.json] = std::get<protocol::ChallengeReply>(reply->reply);
     }
