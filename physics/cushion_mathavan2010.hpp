@@ -11,11 +11,19 @@
 // consistent motion; where the bound on steps is met Han's impact takes its place.
 #pragma once
 
+#include <limits>
+
 #include "physics/cushion_contact.hpp"
 #include "physics/cushion_han2005.hpp"
 #include "physics/pressed_impact.hpp"
 
 namespace poolhall::physics {
+
+// A speed into the cushion below this part of the ball's other speeds changes none of their digits.
+template <class Real>
+[[nodiscard]] constexpr Real negligible_speed() {
+  return std::numeric_limits<Real>::max_exponent > 200 ? Real(1e-100) : Real(1e-9);
+}
 
 template <class Real>
 [[nodiscard]] CushionContact<Real> cushion_response(const CushionContact<Real>& before,
@@ -28,6 +36,13 @@ template <class Real>
     return before;
   const Real radius(materials.ball_radius);
   const Real restitution(cushion.restitution);
+  // In units of a speed that is nothing beside the ball's others, their squares would overflow.
+  const Vec3<Real>& turning = before.angular_velocity;
+  const Real other = absolute(before.velocity.y) +
+                     radius * (absolute(turning.x) + absolute(turning.y) + absolute(turning.z));
+  if (unit < negligible_speed<Real>() * other) {
+    return han2005_impact(before, restitution, Real(cushion.friction), radius, nose);
+  }
   const Vec2<Real> velocity{Real(1), before.velocity.y / unit};
   const Vec3<Real>& w = before.angular_velocity;
   const Vec3<Real> spin{radius * w.x / unit, radius * w.y / unit, radius * w.z / unit};

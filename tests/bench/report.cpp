@@ -232,16 +232,31 @@ void ReportTable::write_csv(const std::filesystem::path& file) const {
 }
 
 void LogLogPlot::write_svg(const std::filesystem::path& file) const {
+  write_panels({*this}, 1, file);
+}
+
+void write_panels(const std::vector<LogLogPlot>& plots, std::size_t columns,
+                  const std::filesystem::path& file) {
+  constexpr double panel_width = plot_left + plot_width + legend_width;
+  constexpr double panel_height = plot_top + plot_height + 60;
   std::ofstream out = opened(file);
-  const Axis x = axis_of(series, &PlotPoint::x);
-  const Axis y = axis_of(series, &PlotPoint::y);
+  const std::size_t rows = (plots.size() + columns - 1) / columns;
   out << "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 "
-      << plot_left + plot_width + legend_width << ' ' << plot_top + plot_height + 60
+      << panel_width * static_cast<double>(columns) << ' '
+      << panel_height * static_cast<double>(rows)
       << "\" font-family=\"sans-serif\" font-size=\"13\">\n"
       << "<rect width=\"100%\" height=\"100%\" fill=\"white\"/>\n";
-  draw_axes(out, *this, x, y);
-  for (std::size_t i = 0; i < series.size(); ++i) {
-    draw_series(out, series[i], i, x, y);
+  for (std::size_t n = 0; n < plots.size(); ++n) {
+    const LogLogPlot& plot = plots[n];
+    const Axis x = axis_of(plot.series, &PlotPoint::x);
+    const Axis y = axis_of(plot.series, &PlotPoint::y);
+    out << "<g transform=\"translate(" << panel_width * static_cast<double>(n % columns) << ' '
+        << panel_height * static_cast<double>(n / columns) << ")\">\n";
+    draw_axes(out, plot, x, y);
+    for (std::size_t i = 0; i < plot.series.size(); ++i) {
+      draw_series(out, plot.series[i], i, x, y);
+    }
+    out << "</g>\n";
   }
   out << "</svg>\n";
 }

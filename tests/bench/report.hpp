@@ -53,6 +53,10 @@ struct LogLogPlot {
   void write_svg(const std::filesystem::path& file) const;
 };
 
+// Several plots in one file, row by row.
+void write_panels(const std::vector<LogLogPlot>& plots, std::size_t columns,
+                  const std::filesystem::path& file);
+
 // The value below which the share `q` of `values` lies (nearest rank); sorts a copy.
 [[nodiscard]] double quantile(std::vector<double> values, double q);
 // The same for several shares at once.

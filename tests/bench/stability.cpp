@@ -9,6 +9,7 @@
 #include "physics/watch.hpp"
 #include "tests/bench/benchmarks.hpp"
 #include "tests/bench/report.hpp"
+#include "tests/bench/stability_parts.hpp"
 #include "tests/support/random_shots.hpp"
 #include "tests/support/scenes.hpp"
 
@@ -162,8 +163,10 @@ bool random_play(const BenchOptions& options, std::ostream& out) {
 
 bool bench_stability(const BenchOptions& options, std::ostream& out) {
   const bool scenes = extreme_scenes(options, out);
+  const bool clusters = clusters_against_springs(options, out);
+  const bool steps = stiff_steps(options, out);
   const bool random = random_play(options, out);
-  return scenes && random;
+  return scenes && clusters && steps && random;
 }
 
 }  // namespace poolhall::bench

@@ -41,7 +41,7 @@ NamedScene into_corner(RailId first, RailId second, const Vec2<double>& way) {
                   return {false, sequence(r)};
                 }
                 const auto* other = one + 1;
-                return {one->rail == first && other->rail == second && one->t == other->t,
+                return {one->rail == first && other->rail == second && other->t - one->t < 1e-15,
                         std::string(name(*one->rail)) + ", " +
                             std::string(other->rail ? name(*other->rail) : "none") + " " +
                             in_words(other->t - one->t) + " s later"};

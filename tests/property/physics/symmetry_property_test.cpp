@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "physics/event_loop.hpp"
 #include "tests/support/random_shots.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/symmetry.hpp"
@@ -57,24 +56,6 @@ RC_GTEST_PROP(Symmetry, ASceneRotatedBy180DegreesGivesTheRotatedShot, (std::uint
 
 RC_GTEST_PROP(Symmetry, OtherNumbersOnTheBallsGiveTheSameShot, (std::uint32_t seed)) {
   hold_symmetry(seed, Symmetry::renumbered);
-}
-
-RC_GTEST_PROP(Symmetry, OtherNumbersChangeNoBitWhereNoThirdBallIsNear, (std::uint32_t seed)) {
-  const Scene<double> scene = scene_of(random_shot({.seed = seed,
-                                                    .balls = 2 + seed % 8,
-                                                    .table = *preset_table("wpa9"),
-                                                    .materials = *preset_materials("modern")}));
-  const Scene<double> image = transformed(scene, Symmetry::renumbered);
-  EventLoop<double, Precise> loop(scene.table, scene.materials);
-  EventLoop<double, Precise> other(scene.table, scene.materials);
-  Unwatched nobody;
-  RC_ASSERT(loop.run(scene.balls, scene.shot, {}, nobody) ==
-            other.run(image.balls, image.shot, {}, nobody));
-  RC_ASSERT(loop.events() == other.events());
-  for (std::size_t i = 0; i < scene.balls.count; ++i) {
-    const auto& there = other.balls()[scene.balls.count - 1 - i];
-    RC_ASSERT(loop.balls()[i].position == there.position);
-  }
 }
 
 }  // namespace

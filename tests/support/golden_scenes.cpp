@@ -1,0 +1,230 @@
+#include "tests/support/golden_scenes.hpp"
+
+#include <cstring>
+#include <string_view>
+
+#include "physics/batch.hpp"
+#include "physics/event_loop.hpp"
+
+namespace poolhall::test_support {
+
+using namespace physics;
+
+namespace {
+
+// FNV-1a over the bytes of all numbers of the log and the final state.
+class Hash {
+ public:
+  void add(double value) {
+    value += 0.0;  // -0 and 0 are the same number
+    std::uint64_t bits = 0;
+    std::memcpy(&bits, &value, sizeof bits);
+    add_bits(bits);
+  }
+  void add_bits(std::uint64_t bits) {
+    for (int i = 0; i < 8; ++i) {
+      value_ = (value_ ^ ((bits >> (8 * i)) & 0xffU)) * 0x100000001b3U;
+    }
+  }
+  void add(const Ball<double>& ball) {
+    add_bits(number(ball.id));
+    add_bits(static_cast<std::uint64_t>(ball.state));
+    for (const double x :
+         {ball.position.x, ball.position.y, ball.velocity.x, ball.velocity.y,
+          ball.angular_velocity.x, ball.angular_velocity.y, ball.angular_velocity.z}) {
+      add(x);
+    }
+  }
+  void add(const EventLog<double>& events, const BallSet<double>& balls) {
+    for (const auto& event : events) {
+      add(event.t);
+      add_bits(static_cast<std::uint64_t>(event.type));
+      for (std::size_t i = 0; i < event.ball_count; ++i) {
+        add(event.after[i]);
+      }
+    }
+    for (const auto& ball : balls) {
+      add(ball);
+    }
+  }
+  [[nodiscard]] std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325U;
+};
+
+Scene<double> break_shot(std::string_view table, std::string_view kind, const Cushion* cushion,
+                         int rows) {
+  Scene<double> scene;
+  scene.table = *preset_table(table);
+  scene.materials = *preset_materials(kind);
+  if (cushion != nullptr) {
+    scene.materials.cushion = *cushion;
+  }
+  const double pitch = 2 * scene.materials.ball_radius;
+  scene.balls.count = 1 + static_cast<std::size_t>(rows * (rows + 1) / 2);
+  scene.balls[0].id = cue_ball;
+  scene.balls[0].position = {scene.table.width / 2 + 0.05, scene.table.head_string - 0.1};
+  std::uint8_t n = 1;
+  for (int row = 0; row < rows; ++row) {
+    for (int i = 0; i <= row; ++i, ++n) {
+      scene.balls[n].id = BallId{n};
+      scene.balls[n].position = {scene.table.foot_spot_x + pitch * (i - row / 2.0),
+                                 scene.table.foot_spot_y + pitch * row * 0.8660254037844386};
+    }
+  }
+  scene.shot = cue_shot_from_degrees(1.5, 3.0, 4.0, 92.5, 7.0);
+  return scene;
+}
+
+std::uint64_t hash_played(const Scene<double>& scene, const SimulationOptions& options) {
+  Hash hash;
+  if (const auto result = simulate(scene, options)) {
+    hash.add(result->events, result->balls);
+  }
+  return hash.value();
+}
+
+template <class Policy>
+std::uint64_t hash_looped(const Scene<double>& scene, const SimulationOptions& options) {
+  EventLoop<double, Policy> loop(scene.table, scene.materials);
+  Recorder<double> recorder;
+  static_cast<void>(loop.run(scene.balls, scene.shot, options, recorder));
+  Hash hash;
+  hash.add(recorder.take(), loop.balls());
+  return hash.value();
+}
+
+std::uint64_t hash_evaluated() {
+  Hash hash;
+  const auto outcomes = evaluate(break_shot("wpa9", "modern", nullptr, 5),
+                                 *preset_noise("olympiad"), {.samples = 50, .seed = 5});
+  if (outcomes) {
+    for (std::size_t i = 0; i < max_balls; ++i) {
+      hash.add_bits(outcomes->first_contact[i]);
+      hash.add_bits(outcomes->pocketed[i].total());
+      hash.add(outcomes->resting[i].sum.x);
+      hash.add(outcomes->resting[i].sum.y);
+      hash.add(outcomes->resting[i].squares.x);
+      hash.add(outcomes->resting[i].squares.y);
+    }
+  }
+  return hash.value();
+}
+
+struct Golden {
+  const char* name;
+  const char* table;
+  const char* kind;
+  const Cushion* cushion;
+  int rows;  // of the rack
+  SimulationOptions options;
+  std::uint64_t played;   // simulate
+  std::uint64_t plain;    // EventLoop<double>
+  std::uint64_t precise;  // EventLoop<double, Precise>
+};
+
+const Cushion spring = SpringCushion{};
+const Cushion mathavan = Mathavan2010Cushion{};
+
+const Golden golden[] = {
+    {"cluster break",
+     "olympiad",
+     "olympiad",
+     nullptr,
+     5,
+     {},
+     0x15cbdec7ed47d12a,
+     0x7c16ba823e007b03,
+     0x15cbdec7ed47d12a},
+    {"sequential break",
+     "olympiad",
+     "olympiad",
+     nullptr,
+     5,
+     {.contact = ContactModel::sequential},
+     0x461b17e07bbbe859,
+     0xc7d466178dc29e17,
+     0x461b17e07bbbe859},
+    {"modern break among jaws",
+     "bar7",
+     "modern",
+     nullptr,
+     5,
+     {},
+     0x4010e7b46e0a59f6,
+     0x0872d69584a54d88,
+     0x4010e7b46e0a59f6},
+    {"hertz break",
+     "wpa9",
+     "modern",
+     nullptr,
+     5,
+     {.contact = ContactModel::hertz},
+     0x5c09b2b0921d10f3,
+     0xc8f009f6fb1980d3,
+     0x5c09b2b0921d10f3},
+    {"closed form",
+     "olympiad",
+     "marlow",
+     nullptr,
+     5,
+     {.contact = ContactModel::sequential, .solver = RootSolver::closed_form_polished},
+     0x5bf0f20ccc0f376b,
+     0x7b9824658512b0cc,
+     0x5bf0f20ccc0f376b},
+    {"spring cushions",
+     "wpa8",
+     "olympiad",
+     &spring,
+     5,
+     {},
+     0x32dde6643df06ea4,
+     0x4be5805816587d67,
+     0x32dde6643df06ea4},
+    {"mathavan2010 cushions",
+     "wpa8",
+     "modern",
+     &mathavan,
+     5,
+     {},
+     0x6fca7f948bdd64b7,
+     0xe1630e08e7522b36,
+     0x6fca7f948bdd64b7},
+    {"two balls",
+     "olympiad",
+     "olympiad",
+     nullptr,
+     1,
+     {},
+     0xdfe8894f5dca5db8,
+     0xdfe8894f5dca5db8,
+     0x8cf08eb3b7253f3e},
+    {"two balls among jaws",
+     "wpa9",
+     "modern",
+     nullptr,
+     1,
+     {},
+     0xbc0ce10e85d36bd5,
+     0xbc0ce10e85d36bd5,
+     0xc1af96d02b63fdee},
+};
+constexpr std::uint64_t evaluated = 0xa1d335caf41ee10f;
+
+}  // namespace
+
+std::vector<GoldenHash> golden_hashes() {
+  std::vector<GoldenHash> out;
+  for (const Golden& g : golden) {
+    const Scene<double> scene = break_shot(g.table, g.kind, g.cushion, g.rows);
+    const std::string name = g.name;
+    out.push_back({name + ", simulate", g.played, hash_played(scene, g.options)});
+    out.push_back({name + ", double", g.plain, hash_looped<Lean>(scene, g.options)});
+    out.push_back({name + ", wide", g.precise, hash_looped<Precise>(scene, g.options)});
+  }
+  out.push_back({"evaluate", evaluated, hash_evaluated()});
+  return out;
+}
+
+}  // namespace poolhall::test_support
