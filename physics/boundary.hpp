@@ -157,6 +157,9 @@ void hit_corner(const Boundary<Real>& b, const Segment<Real>& s, bool left, bool
   keep_earlier(best, {t, HitKind::pocket, {}, pocket, {}, Surface::line});
 }
 
+// Gaps to the far sides are taken from the noses: near them both differences are exact, and a ball
+// that lies an ulp off the rail is not taken to touch it, as it would be by the rounded `high`.
+//
 // The first rail or mouth that the ball meets within T seconds of its segment. Sides that its
 // path's bounding box does not reach cost one comparison.
 template <class Real>
@@ -183,9 +186,9 @@ template <class Real>
   if (left)
     hit_long_side(b, s, true, Real(s.position.x - b.low.x), best);
   if (right)
-    hit_long_side(b, s, false, Real(b.high.x - s.position.x), best);
+    hit_long_side(b, s, false, Real((b.size.x - s.position.x) - b.low.x), best);
   if (foot)
-    hit_short_side(s, false, Real(b.high.y - s.position.y), best);
+    hit_short_side(s, false, Real((b.size.y - s.position.y) - b.low.y), best);
   return best;
 }
 

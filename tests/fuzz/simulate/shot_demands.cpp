@@ -47,6 +47,9 @@ void demand_inside(const Scene<double>& scene, const BallSet<double>& balls, dou
   }
   const double least = scene.materials.ball_radius - slack;
   for (const auto& ball : balls) {
+    if (ball.pocket) {
+      continue;
+    }
     const Vec2<double> far = Vec2<double>{scene.table.width, scene.table.length} - ball.position;
     demand(std::min({ball.position.x, ball.position.y, far.x, far.y}) >= least,
            "no ball is beyond the rails");
