@@ -102,7 +102,7 @@ Finding all_of(const std::vector<Finding>& findings) {
 
 namespace {
 
-std::string refusal(const Error& error) {
+std::string refusal(const physics::Error& error) {
   return "refused: " + std::string(name(error.fault)) + " at " + error.field;
 }
 

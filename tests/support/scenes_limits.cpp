@@ -44,7 +44,7 @@ void add_not_finite(std::vector<NamedScene>& out, const std::string& field, Set 
     if (outcome) {
       return {false, "was simulated"};
     }
-    const Error& error = outcome.error();
+    const physics::Error& error = outcome.error();
     return {error.fault == Fault::not_finite && error.field == field,
             "refused: " + std::string(name(error.fault)) + " at " + error.field};
   };
