@@ -64,6 +64,7 @@ Sequence compare_sequences(const std::vector<TimedEvent>& found,
     std::stable_sort(reference.begin() + first, reference.begin() + last, by_key);
     for (; begin < end; ++begin) {
       if (ordered[begin].key != reference[begin].key) {
+        result.parted = true;
         result.first_difference = "event " + std::to_string(begin) + ": " + words(ordered[begin]) +
                                   ", but reference: " + words(reference[begin]);
         return result;

@@ -51,7 +51,8 @@ template <class Real>
 inline constexpr double tie = 1e-13;  // s
 
 struct Sequence {
-  bool same = false;  // but for the order of ties
+  bool same = false;    // but for the order of ties
+  bool parted = false;  // an event is another; else one sequence only ends before the other
   bool has_ties_in_another_order = false;
   std::vector<double> time_errors;  // s, of each event up to the first that is another
   std::string first_difference;     // in words, where not the same

@@ -142,8 +142,11 @@ class Integration {
         return left_of_state(ball, balls_[w.ball]);
       case Watch::Kind::rail: {
         const auto& rail = geometry_.rails[w.other];
-        const double at = rail.axis == physics::Axis::x ? ball.position.x : ball.position.y;
-        return rail.side * (rail.centre_line - at);
+        const bool across = rail.axis == physics::Axis::x;
+        const double at = across ? ball.position.x : ball.position.y;
+        const double foot = across ? ball.position.y : ball.position.x;
+        const bool beside = foot >= rail.begin && foot <= rail.end;
+        return beside ? rail.side * (rail.centre_line - at) : 1.0;
       }
       case Watch::Kind::mouth: {
         const auto& mouth = geometry_.mouths[w.other];

@@ -101,12 +101,12 @@ void add_event_method(std::vector<Method>& methods, const std::string& precision
 
 template <class Step>
 Method stepping_method(const std::string& family, const std::string& step, const Step& run) {
-  return {family, family + ", " + step, step,
+  return {family, family + ", " + step, family == name(Stepper::paper_discrete) ? step : "",
           [run](const RandomShot& shot, const ReferenceSimulation& truth) {
             const physics::Scene<double> scene = scene_in<double>(shot);
             Measured measured;
             SteppedShot result;
-            measured.microseconds = least_microseconds(3, [&] { result = run(scene); });
+            measured.microseconds = processor_microseconds([&] { result = run(scene); });
             compare_stepped(result, truth, measured);
             return measured;
           }};

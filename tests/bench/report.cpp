@@ -63,7 +63,7 @@ constexpr double plot_left = 80;
 constexpr double plot_top = 40;
 constexpr double plot_width = 560;
 constexpr double plot_height = 400;
-constexpr double legend_width = 260;
+constexpr double legend_width = 300;
 
 // Decades of one axis.
 struct Axis {

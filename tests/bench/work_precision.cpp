@@ -72,7 +72,7 @@ void add_point(LogLogPlot& plot, const Method& method, const Tally& t) {
 
 void work_precision(const BenchOptions& options, std::ostream& out) {
   std::vector<std::pair<RandomShot, ReferenceSimulation>> scenes;
-  for (std::size_t i = 0; i < scaled_count(200, options); ++i) {
+  for (std::size_t i = 0; i < scaled_count(100, options); ++i) {
     RandomShot shot = shot_of({"", 2 + i % 7, 0}, options.seed * 2'000'000 + i);
     ReferenceSimulation truth = reference_simulate(reference_scene(shot), {});
     scenes.emplace_back(std::move(shot), std::move(truth));
