@@ -40,7 +40,7 @@ std::string percent(std::size_t part, std::size_t whole) {
   return cell(100.0 * static_cast<double>(part) / static_cast<double>(whole)) + " %";
 }
 
-const std::vector<std::string> columns{
+const std::vector<std::string> method_columns{
     "",      "us a shot", "position m, median",   "p90",
     "p99.9", "max",       "event time s, median", "p90",
     "p99.9", "max",       "wrong sequences",      "wrong outcomes"};
@@ -83,7 +83,7 @@ void work_precision(const BenchOptions& options, std::ostream& out) {
   }
   ReportTable table("Error against run time, " + std::to_string(scenes.size()) +
                         " shots of 2 to 8 balls, every method on the same",
-                    columns);
+                    method_columns);
   LogLogPlot plot{"Error against run time, shots of 2 to 8 balls",
                   "microseconds a shot (median)",
                   "error of final positions, m (90 % of shots below)",
