@@ -103,13 +103,33 @@ class Integration {
     }
   }
 
+  // The centres' place is convex: whichever rail's or corner mouth's whole line is passed first is
+  // met between its ends. A side mouth lies in the long rails' line.
+  [[nodiscard]] static bool is_side(const physics::MouthLine<double>& mouth) {
+    return mouth.outward.y == 0;
+  }
+  [[nodiscard]] std::optional<physics::PocketId> side_pocket_at(
+      const Ball<double>& ball, const physics::StraightRail<double>& rail) const {
+    for (const auto& mouth : geometry_.mouths) {
+      const double from = std::min(mouth.from.y, mouth.to.y);
+      const double to = std::max(mouth.from.y, mouth.to.y);
+      if (is_side(mouth) && dot(mouth.outward, rail.into) > 0 && ball.position.y >= from &&
+          ball.position.y <= to) {
+        return mouth.pocket;
+      }
+    }
+    return std::nullopt;
+  }
+
   [[nodiscard]] std::vector<Watch> watches() const {
     std::vector<Watch> all;
     for (std::size_t i = 0; i < balls_.count; ++i) {
       if (is_moving(balls_[i])) {
         all.push_back({Watch::Kind::transition, i, 0});
         for (std::size_t m = 0; m < geometry_.mouths.size; ++m) {
-          all.push_back({Watch::Kind::mouth, i, m});
+          if (!is_side(geometry_.mouths[m])) {
+            all.push_back({Watch::Kind::mouth, i, m});
+          }
         }
         for (std::size_t r = 0; r < geometry_.rails.size; ++r) {
           all.push_back({Watch::Kind::rail, i, r});
@@ -142,18 +162,12 @@ class Integration {
         return left_of_state(ball, balls_[w.ball]);
       case Watch::Kind::rail: {
         const auto& rail = geometry_.rails[w.other];
-        const bool across = rail.axis == physics::Axis::x;
-        const double at = across ? ball.position.x : ball.position.y;
-        const double foot = across ? ball.position.y : ball.position.x;
-        const bool beside = foot >= rail.begin && foot <= rail.end;
-        return beside ? rail.side * (rail.centre_line - at) : 1.0;
+        const double at = rail.axis == physics::Axis::x ? ball.position.x : ball.position.y;
+        return rail.side * (rail.centre_line - at);
       }
       case Watch::Kind::mouth: {
         const auto& mouth = geometry_.mouths[w.other];
-        const Vec2<double> along = mouth.to - mouth.from;
-        const double foot = dot(ball.position - mouth.from, along);
-        const bool inside = foot >= 0 && foot <= dot(along, along);
-        return inside ? mouth.offset - dot(ball.position, mouth.outward) : 1.0;
+        return mouth.offset - dot(ball.position, mouth.outward);
       }
       case Watch::Kind::pair:
         return length(unpacked(x, w.other).position - ball.position) - c_.diameter;
@@ -190,13 +204,11 @@ class Integration {
       std::optional<Watch> first;
       double when = to;
       for (const Watch& w : all) {
-        const Packed& x = stepper.current_state();
-        if (gap(w, x) <= 0 && closing(w, x)) {
-          const double t = located(stepper, w, from, to);
-          if (!first || t < when) {
-            first = w;
-            when = t;
-          }
+        const std::optional<double> closed = closed_within_step(stepper, w, from, to);
+        const double t = closed ? located(stepper, w, from, *closed) : to;
+        if (closed && (!first || t < when)) {
+          first = w;
+          when = t;
         }
       }
       if (first) {
@@ -209,6 +221,29 @@ class Integration {
     }
     take(stepper.current_state(), stepper.current_time() - start);
     return stepper.current_time();
+  }
+
+  // A time in the step at which the gap is closed, if there is one: at its end, or, of a pair that
+  // has passed, when it was closest.
+  template <class DenseOutput>
+  std::optional<double> closed_within_step(DenseOutput& stepper, const Watch& w, double from,
+                                           double to) const {
+    if (gap(w, stepper.current_state()) <= 0 && closing(w, stepper.current_state())) {
+      return to;
+    }
+    if (w.kind != Watch::Kind::pair || !closing(w, stepper.previous_state()) ||
+        closing(w, stepper.current_state())) {
+      return std::nullopt;
+    }
+    Packed x(balls_.count * per_ball);
+    double low = from, high = to;
+    for (int i = 0; i < 40; ++i) {
+      const double middle = low + (high - low) / 2;
+      stepper.calc_state(middle, x);
+      (closing(w, x) ? low : high) = middle;
+    }
+    stepper.calc_state(low, x);
+    return gap(w, x) <= 0 ? std::optional(low) : std::nullopt;
   }
 
   // Bisection of the dense output for the time at which the gap closes.
@@ -239,6 +274,14 @@ class Integration {
     }
   }
 
+  void pocket(Ball<double>& ball, physics::PocketId where, double t) {
+    ball.state = MotionState::pocketed;
+    ball.pocket = where;
+    ball.velocity = {};
+    ball.angular_velocity = {};
+    out_.events.push_back({t, EventType::pocketed, ball.id, {}});
+  }
+
   void resolve(const Watch& w, double t) {
     Ball<double>& ball = balls_[w.ball];
     switch (w.kind) {
@@ -247,6 +290,10 @@ class Integration {
         break;
       case Watch::Kind::rail: {
         const auto& rail = geometry_.rails[w.other];
+        if (const auto side = side_pocket_at(ball, rail)) {
+          pocket(ball, *side, t);
+          break;
+        }
         ball = physics::after_cushion(ball, rail.into, scene_.materials, nose_);
         const double speed = std::max(0.0, dot(ball.velocity, rail.into) + c_.separation_speed);
         ball.velocity = ball.velocity - speed * rail.into;
@@ -255,11 +302,7 @@ class Integration {
         break;
       }
       case Watch::Kind::mouth:
-        ball.state = MotionState::pocketed;
-        ball.pocket = geometry_.mouths[w.other].pocket;
-        ball.velocity = {};
-        ball.angular_velocity = {};
-        out_.events.push_back({t, EventType::pocketed, ball.id, {}});
+        pocket(ball, geometry_.mouths[w.other].pocket, t);
         break;
       case Watch::Kind::pair: {
         const auto after =
