@@ -159,7 +159,7 @@ void draw_series(std::ostream& out, const PlotSeries& series, std::size_t index,
     line << px << ',' << py << ' ';
     draw_mark(out, index, px, py);
     if (!p.label.empty()) {
-      labels << "<text x=\"" << px + 8 << "\" y=\"" << py + 4 << "\">" << escaped_xml(p.label)
+      labels << "<text x=\"" << px + 14 << "\" y=\"" << py + 4 << "\">" << escaped_xml(p.label)
              << "</text>\n";
     }
   }
