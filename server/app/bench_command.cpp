@@ -63,6 +63,9 @@ void add_bench_command(CLI::App& app, int& exit_code) {
           "each class), methods, growth or operations")
       ->check(CLI::IsMember(
           std::vector<std::string>(bench::precision_parts.begin(), bench::precision_parts.end())));
+  add_benchmark(*command, exit_code, "ratings",
+                "how often the ratings' intervals hold the truth and an SPRT is wrong, simulated",
+                bench::bench_ratings);
   add_benchmark(*command, exit_code, "rules",
                 "100,000 random games of both rule sets, and what must hold of every game",
                 bench::bench_rules);

@@ -19,6 +19,7 @@
 
 #include "server/app/commands.hpp"
 #include "server/app/exit_codes.hpp"
+#include "server/app/tournament_calls.hpp"
 #include "server/app/tournament_display.hpp"
 #include "server/net/server.hpp"
 #include "server/net/tokens.hpp"
@@ -102,8 +103,10 @@ std::optional<std::string> wrong_address(const RunArguments& arguments,
 void announce(const settings::TournamentSettings& tournament, const net::Server& server,
               const std::string& database) {
   const std::size_t entries = tournament.entries.size();
-  const std::size_t matches = entries * (entries - 1) / 2;
-  fmt::print("Tournament {}: {}, {} entries, {} matches of {} games, noise {}.\n", tournament.name,
+  const std::string matches = tournament.format == "round_robin"
+                                  ? fmt::format("{} matches", entries * (entries - 1) / 2)
+                                  : fmt::format("{}, matches", tournament.format);
+  fmt::print("Tournament {}: {}, {} entries, {} of {} games, noise {}.\n", tournament.name,
              rules::name(tournament.rules), entries, matches, tournament.games_per_match,
              tournament.noise);
   fmt::print("Agents connect to {}. Games are stored in {}.\n",
@@ -120,6 +123,9 @@ void print_final(const net::TournamentView& view) {
   fmt::print("\n{}\n{}\n{}", tournament::standings_text(table, view.names),
              tournament::crosstable_text(cross, table, view.names),
              tournament::endings_text(table));
+  if (view.note) {
+    fmt::print("{}.\n", *view.note);
+  }
 }
 
 // What the network thread leaves behind; read when the server has stopped.
@@ -221,9 +227,11 @@ void add_run(CLI::App& tournament, int& exit_code) {
 }  // namespace
 
 void add_tournament_command(CLI::App& app, int& exit_code) {
-  CLI::App* tournament = app.add_subcommand("tournament", "Play a tournament");
+  CLI::App* tournament =
+      app.add_subcommand("tournament", "Play tournaments, here or at a running server");
   tournament->require_subcommand(1);
   add_run(*tournament, exit_code);
+  add_tournament_calls(*tournament, exit_code);
 }
 
 }  // namespace poolhall::app

@@ -6,7 +6,6 @@
 
 #include <fmt/format.h>
 
-#include "server/tournament/round_robin.hpp"
 #include "server/tournament/seeds.hpp"
 
 namespace poolhall::net {
@@ -42,14 +41,20 @@ TournamentEntry entry_of(const std::string& tournament, const settings::EntrySet
   return entry;
 }
 
-std::vector<tournament::TieBreak> tie_breaks_of(const settings::TournamentSettings& settings) {
-  std::vector<tournament::TieBreak> tie_breaks;
-  for (const std::string& name : settings.tie_breaks) {
-    if (const auto tie_break = tournament::tie_break(name)) {
-      tie_breaks.push_back(*tie_break);
-    }
-  }
-  return tie_breaks;
+tournament::Pace pace_of(const settings::TournamentSettings& settings) {
+  return settings.pace == settings::MatchPace::rounds ? tournament::Pace::by_rounds
+                                                      : tournament::Pace::free_running;
+}
+
+ledger::ScoredGame scored(const GameOutcome& game) {
+  return {game.number, game.breaker, game.winner, game.reason, game.turns};
+}
+
+std::vector<ledger::ScoredGame> scored(const std::vector<GameOutcome>& games) {
+  std::vector<ledger::ScoredGame> list;
+  std::transform(games.begin(), games.end(), std::back_inserter(list),
+                 [](const GameOutcome& game) { return scored(game); });
+  return list;
 }
 
 // The file as it is stored: with the seed that was drawn for it, if it has none.
@@ -60,7 +65,7 @@ std::string with_seed(const settings::TournamentFile& file, std::uint64_t seed) 
 }  // namespace
 
 tournament::Standings standings_of(const TournamentView& view) {
-  return tournament::standings(view.names.size(), view.games, view.tie_breaks);
+  return tournament::standings(view.names.size(), view.games, view.rules);
 }
 
 tournament::Progress progress_of(const TournamentView& view, SteadyTime now) {
@@ -80,9 +85,11 @@ TournamentDriver::TournamentDriver(settings::TournamentFile file, MatchHost& hos
     : file_(std::move(file)),
       host_(host),
       now_(std::move(now)),
-      director_(tournament::round_robin(file_.settings.entries.size()),
+      book_(file_.settings),
+      director_(book_.schedule().pairings,
                 {.games = file_.settings.max_concurrent_games,
-                 .games_per_entry = file_.settings.max_concurrent_games_per_entry}) {}
+                 .games_per_entry = file_.settings.max_concurrent_games_per_entry},
+                pace_of(file_.settings)) {}
 
 void TournamentDriver::on_change(std::function<void(const TournamentView&)> callback) {
   on_change_ = std::move(callback);
@@ -135,85 +142,73 @@ void TournamentDriver::enter_all() {
 }
 
 void TournamentDriver::take_up_earlier_results() {
-  const auto known = [&](const MatchOutcome& outcome) {
-    return outcome.pairing < director_.schedule().size();
-  };
-  for (const MatchOutcome& outcome : host_.finished_matches(file_.settings.name)) {
-    if (known(outcome)) {
-      for (const GameOutcome& game : outcome.games) {
-        record(outcome.pairing, game);
-      }
+  const auto finished = host_.finished_matches(file_.settings.name);
+  const auto unfinished = host_.unfinished_matches(file_.settings.name);
+  for (const MatchOutcome& outcome : finished) {
+    book_.take(outcome.pairing, scored(outcome.games), ledger::MatchStage::over);
+  }
+  for (const MatchOutcome& outcome : unfinished) {
+    book_.take(outcome.pairing, scored(outcome.games), ledger::MatchStage::going_on);
+  }
+  plan();
+  for (const MatchOutcome& outcome : finished) {
+    if (director_.is_known(outcome.pairing)) {
       director_.end(outcome.pairing);
     }
   }
-  for (const MatchOutcome& outcome : host_.unfinished_matches(file_.settings.name)) {
-    if (known(outcome)) {
-      for (const GameOutcome& game : outcome.games) {
-        record(outcome.pairing, game);
-      }
+  for (const MatchOutcome& outcome : unfinished) {
+    if (const Pairing* pairing = book_.pairing(outcome.pairing)) {
       director_.resume(outcome.pairing);
-      start(director_.schedule()[outcome.pairing]);
+      start(*pairing);
     }
   }
 }
 
 void TournamentDriver::match_over(const MatchOutcome& outcome) {
-  if (outcome.pairing >= director_.schedule().size() || director_.is_over(outcome.pairing)) {
+  if (!director_.is_known(outcome.pairing) || director_.is_over(outcome.pairing)) {
     return;
   }
-  for (const GameOutcome& game : outcome.games) {
-    record(outcome.pairing, game);
-  }
+  book_.take(outcome.pairing, scored(outcome.games), ledger::MatchStage::over);
   game_began_.erase(outcome.pairing);
   director_.end(outcome.pairing);
+  plan();
   start_due();
   tell();
 }
 
 void TournamentDriver::game_over(const MatchOrder& order, const GameOutcome& outcome) {
-  if (order.pairing >= director_.schedule().size() ||
-      games_.contains({order.pairing, outcome.number})) {
+  const Pairing* pairing = book_.pairing(order.pairing);
+  if (pairing == nullptr || !book_.add_game(order.pairing, scored(outcome))) {
     return;
   }
-  record(order.pairing, outcome);
   const auto began = game_began_.find(order.pairing);
   if (began != game_began_.end()) {
-    const Pairing& pairing = director_.schedule()[order.pairing];
-    timed_.push_back({pairing.first, pairing.second, now_() - began->second});
+    timed_.push_back({pairing->first, pairing->second, now_() - began->second});
     began->second = now_();
   }
-  if (games_played(order.pairing) == file_.settings.games_per_match) {
+  if (book_.games_played(order.pairing) == file_.settings.games_per_match) {
     game_began_.erase(order.pairing);
   }
   tell();
 }
 
-void TournamentDriver::record(std::uint32_t pairing, const GameOutcome& outcome) {
-  const Pairing& who = director_.schedule()[pairing];
-  const std::array<EntryId, 2> players{who.first, who.second};
-  PlayedGame game;
-  game.pairing = pairing;
-  game.number = outcome.number;
-  game.breaker = players.at(outcome.breaker);
-  game.other = players.at(1 - outcome.breaker);
-  if (outcome.winner) {
-    game.winner = players.at(*outcome.winner);
-  }
-  game.reason = outcome.reason;
-  games_[{pairing, outcome.number}] = game;
+void TournamentDriver::plan() {
+  book_.plan();
+  director_.plan(book_.schedule().pairings);
 }
 
 void TournamentDriver::start_due() {
   for (const Pairing& pairing : director_.begin_due()) {
     start(pairing);
   }
-  if (director_.all_over() && !over_) {
+  if (book_.schedule().is_complete && director_.all_over() && !over_) {
     finish();
   }
 }
 
 void TournamentDriver::start(const Pairing& pairing) {
   game_began_[pairing.number] = now_();
+  book_.begin(pairing.number);
   host_.start_match(order_of(pairing));
 }
 
@@ -242,11 +237,6 @@ MatchOrder TournamentDriver::order_of(const Pairing& pairing) const {
   return order;
 }
 
-std::uint32_t TournamentDriver::games_played(std::uint32_t pairing) const {
-  return static_cast<std::uint32_t>(std::count_if(
-      games_.begin(), games_.end(), [&](const auto& game) { return game.first.first == pairing; }));
-}
-
 std::vector<protocol::StandingRow> TournamentDriver::final_table() const {
   const TournamentView now = view();
   std::vector<protocol::StandingRow> table;
@@ -259,15 +249,17 @@ std::vector<protocol::StandingRow> TournamentDriver::final_table() const {
 
 TournamentView TournamentDriver::view() const {
   TournamentView view;
-  for (const settings::EntrySettings& entry : file_.settings.entries) {
-    view.names.push_back(entry.name);
-  }
-  view.tie_breaks = tie_breaks_of(file_.settings);
-  std::transform(games_.begin(), games_.end(), std::back_inserter(view.games),
-                 [](const auto& game) { return game.second; });
+  view.names = book_.names();
+  view.rules = book_.table_rules();
+  view.games = book_.games();
+  view.note = ledger::sprt_line(book_);
   view.timed = timed_;
-  for (const Pairing& pairing : director_.schedule()) {
-    std::uint32_t to_play = file_.settings.games_per_match - games_played(pairing.number);
+  for (const Pairing& pairing : book_.schedule().pairings) {
+    const std::uint32_t played = book_.games_played(pairing.number);
+    std::uint32_t to_play = file_.settings.games_per_match - played;
+    if (book_.is_over(pairing.number)) {
+      continue;  // games that could not be played are not played later
+    }
     const auto began = game_began_.find(pairing.number);
     if (began != game_began_.end() && to_play > 0) {
       view.running.push_back({pairing.first, pairing.second, began->second});

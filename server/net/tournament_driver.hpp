@@ -17,11 +17,11 @@
 
 #include <tl/expected.hpp>
 
+#include "server/ledger/tournament_book.hpp"
 #include "server/net/deadline_queue.hpp"
 #include "server/net/match_host.hpp"
 #include "server/settings/tournament_settings.hpp"
 #include "server/tournament/director.hpp"
-#include "server/tournament/played_game.hpp"
 #include "server/tournament/progress.hpp"
 #include "server/tournament/render.hpp"
 #include "server/tournament/standings.hpp"
@@ -37,11 +37,12 @@ struct TournamentView {
   };
 
   tournament::Names names;
-  std::vector<tournament::TieBreak> tie_breaks;
+  tournament::TableRules rules;
   std::vector<tournament::PlayedGame> games;  // scored, in the order of the schedule
   std::vector<tournament::TimedGame> timed;   // those that ended since `began`
   std::vector<Running> running;
-  std::vector<tournament::TimedGame> waiting;
+  std::vector<tournament::TimedGame> waiting;  // of the matches that are known so far
+  std::optional<std::string> note{};           // what the format has to say: how an SPRT stands
   SteadyTime began{};
   bool over = false;
 };
@@ -63,29 +64,27 @@ class TournamentDriver {
   [[nodiscard]] TournamentView view() const;
 
  private:
-  using GameKey = std::pair<std::uint32_t, std::uint32_t>;  // pairing, number
-
   [[nodiscard]] tl::expected<void, std::string> open(std::uint64_t seed);
   void enter_all();
   void take_up_earlier_results();
   void match_over(const MatchOutcome& outcome);
   void game_over(const MatchOrder& order, const GameOutcome& outcome);
-  void record(std::uint32_t pairing, const GameOutcome& outcome);
+  // Follows what the results make of the schedule.
+  void plan();
   void start_due();
   void start(const tournament::Pairing& pairing);
   void finish();
   void tell() const;
   [[nodiscard]] MatchOrder order_of(const tournament::Pairing& pairing) const;
-  [[nodiscard]] std::uint32_t games_played(std::uint32_t pairing) const;
   [[nodiscard]] std::vector<protocol::StandingRow> final_table() const;
 
   settings::TournamentFile file_;
   MatchHost& host_;
   std::function<SteadyTime()> now_;
   std::function<void(const TournamentView&)> on_change_;
+  ledger::TournamentBook book_;
   tournament::Director director_;
   std::uint64_t seed_ = 0;
-  std::map<GameKey, tournament::PlayedGame> games_;
   std::map<std::uint32_t, SteadyTime> game_began_;  // the running game of a running match
   std::vector<tournament::TimedGame> timed_;
   SteadyTime began_{};

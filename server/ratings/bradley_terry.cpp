@@ -2,18 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
 #include <Eigen/Dense>
 
 #include "server/ratings/connected_groups.hpp"
+#include "server/ratings/normal.hpp"
 
 namespace poolhall::ratings {
 namespace {
 
 constexpr double elo_per_logit = 400 / std::numbers::ln10;
-constexpr double normal_quantile_975 = 1.959963984540054;
 constexpr int max_newton_steps = 100;
+constexpr double least_pairs_per_unknown = 10;
 constexpr double step_tolerance = 1e-9;  // logits; the error left is about its square
 
 // Unknowns: the strength of each player that has one, in logits, and then perhaps the advantage
@@ -55,6 +57,21 @@ double log_likelihood(const Problem& problem, const Eigen::VectorXd& values) {
   return sum;
 }
 
+Eigen::VectorXd direction_of(const Problem& problem, const RatedGame& game) {
+  Eigen::VectorXd direction = Eigen::VectorXd::Zero(problem.unknowns());
+  direction[index_of(game.breaker)] = 1;
+  direction[index_of(game.other)] = -1;
+  if (problem.with_break) {
+    direction[problem.players] = 1;
+  }
+  return direction;
+}
+
+double win_probability(const Problem& problem, const Eigen::VectorXd& values,
+                       const RatedGame& game) {
+  return 1 / (1 + std::exp(-advantage(problem, values, game)));
+}
+
 struct Derivatives {
   Eigen::VectorXd gradient;
   Eigen::MatrixXd information;  // minus the second derivatives
@@ -64,13 +81,8 @@ Derivatives derivatives(const Problem& problem, const Eigen::VectorXd& values) {
   const Eigen::Index n = problem.unknowns();
   Derivatives d{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   for (const RatedGame& game : problem.games) {
-    const double p = 1 / (1 + std::exp(-advantage(problem, values, game)));
-    Eigen::VectorXd direction = Eigen::VectorXd::Zero(n);
-    direction[index_of(game.breaker)] = 1;
-    direction[index_of(game.other)] = -1;
-    if (problem.with_break) {
-      direction[problem.players] = 1;
-    }
+    const double p = win_probability(problem, values, game);
+    const Eigen::VectorXd direction = direction_of(problem, game);
     d.gradient += game.count * (game.score - p) * direction;
     d.information.noalias() += (game.count * p * (1 - p)) * direction * direction.transpose();
   }
@@ -101,6 +113,29 @@ void release_means(const Problem& problem, Eigen::MatrixXd& covariance) {
   }
 }
 
+// The sums of the score function over each pair; nothing unless there are pairs enough.
+std::optional<Eigen::MatrixXd> pair_scores(const Problem& problem, const Eigen::VectorXd& values) {
+  std::map<std::uint64_t, Eigen::VectorXd> sums;
+  for (const RatedGame& game : problem.games) {
+    if (!game.pair || game.count != 1) {
+      return std::nullopt;
+    }
+    auto [sum, is_new] = sums.try_emplace(*game.pair, Eigen::VectorXd::Zero(problem.unknowns()));
+    sum->second +=
+        (game.score - win_probability(problem, values, game)) * direction_of(problem, game);
+  }
+  const auto pairs = static_cast<double>(sums.size());
+  if (pairs < least_pairs_per_unknown * static_cast<double>(problem.unknowns())) {
+    return std::nullopt;
+  }
+  Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(problem.unknowns(), problem.unknowns());
+  for (const auto& [pair, sum] : sums) {
+    meat.noalias() += sum * sum.transpose();
+  }
+  // The usual correction for as many estimated unknowns as there are.
+  return meat * (pairs / (pairs - static_cast<double>(problem.unknowns())));
+}
+
 // Newton's method on the concave likelihood, steps halved until they do not lose. Nothing when
 // there is no finite maximum or it is not unique.
 std::optional<Fit> maximise(const Problem& problem) {
@@ -118,6 +153,9 @@ std::optional<Fit> maximise(const Problem& problem) {
     if (step.cwiseAbs().maxCoeff() <= step_tolerance) {
       Eigen::MatrixXd covariance =
           factors.solve(Eigen::MatrixXd::Identity(problem.unknowns(), problem.unknowns()));
+      if (const auto meat = pair_scores(problem, values + step)) {
+        return Fit{values + step, covariance * *meat * covariance};
+      }
       release_means(problem, covariance);
       return Fit{values + step, covariance};
     }
@@ -187,6 +225,7 @@ Estimate estimate(const Fit& fit, Eigen::Index unknown) {
 RatingTable bradley_terry(std::size_t players, const std::vector<RatedGame>& games) {
   RatingTable table;
   table.players.resize(players);
+  table.covariance.assign(players * players, 0);
   const std::vector<std::size_t> group = connected_groups(players, games);
   Compared compared = comparable(players, group, games);
   std::optional<Fit> fit;
@@ -207,8 +246,30 @@ RatingTable bradley_terry(std::size_t players, const std::vector<RatedGame>& gam
     } else {
       table.players[player].status = status_without_rating(player, games);
     }
+    for (std::size_t other = 0; other < players && unknown && fit; ++other) {
+      if (const auto second = compared.unknown_of[other]) {
+        table.covariance[player * players + other] =
+            elo_per_logit * elo_per_logit * fit->covariance(*unknown, *second);
+      }
+    }
   }
   return table;
+}
+
+std::optional<double> likelihood_of_superiority(const RatingTable& table, std::size_t a,
+                                                std::size_t b) {
+  const std::size_t players = table.players.size();
+  const PlayerRating& one = table.players[a];
+  const PlayerRating& two = table.players[b];
+  if (!one.rated || !two.rated || one.group != two.group) {
+    return std::nullopt;
+  }
+  const double variance = table.covariance[a * players + a] + table.covariance[b * players + b] -
+                          2 * table.covariance[a * players + b];
+  if (!(variance > 0)) {
+    return std::nullopt;
+  }
+  return 0.5 * std::erfc((two.rated->elo - one.rated->elo) / std::sqrt(2 * variance));
 }
 
 }  // namespace poolhall::ratings

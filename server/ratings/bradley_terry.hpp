@@ -22,6 +22,8 @@ struct RatedGame {
   std::size_t other = 0;
   double score = 0;  // of the breaker: 1 won, 0.5 drawn, 0 lost
   std::uint32_t count = 1;
+  // Games with the same number share a rack and are not independent; unset: independent.
+  std::optional<std::uint64_t> pair{};
 };
 
 struct Estimate {
@@ -46,10 +48,19 @@ struct PlayerRating {
 
 struct RatingTable {
   std::vector<PlayerRating> players;        // a group's mean is 0
+  std::vector<double> covariance;           // Elo^2, players by players, 0 for unrated ones
   std::optional<Estimate> break_advantage;  // none: the games do not tell it; ratings are without
 };
 
-// `players` is how many there are; games name them by index.
+// `players` is how many there are; games name them by index. The intervals come from the covariance
+// over pairs (the sandwich estimator of Huber 1967 with pairs as clusters) where every game has its
+// pair and there are at least ten pairs for every unknown; else from the information matrix,
+// which takes games as independent.
 [[nodiscard]] RatingTable bradley_terry(std::size_t players, const std::vector<RatedGame>& games);
+
+// The probability that `a` is stronger than `b`, from the difference of their ratings and its
+// covariance; nothing when they cannot be compared.
+[[nodiscard]] std::optional<double> likelihood_of_superiority(const RatingTable& table,
+                                                              std::size_t a, std::size_t b);
 
 }  // namespace poolhall::ratings

@@ -1,6 +1,7 @@
 #include "server/settings/tournament_settings.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <set>
 
 #include <fmt/format.h>
@@ -38,6 +39,21 @@ struct Mirrored {
   }
   static std::string write(Value value) {
     return value == MirroredGames::rack ? "\"rack\"" : "\"none\"";
+  }
+};
+
+struct PaceKind {
+  using Value = MatchPace;
+  static std::string expected() { return R"(one of "free", "rounds")"; }
+  static std::optional<Value> read(const Node& node) {
+    const auto word = OneOf{{"free", "rounds"}}.read(node);
+    if (!word) {
+      return std::nullopt;
+    }
+    return *word == "free" ? MatchPace::free : MatchPace::rounds;
+  }
+  static std::string write(Value value) {
+    return value == MatchPace::free ? "\"free\"" : "\"rounds\"";
   }
 };
 
@@ -98,12 +114,32 @@ void add_clock_keys(Keys<TournamentSettings>& keys) {
       [](auto& s) -> auto& { return s.clock.shot_cap; });
 }
 
+void add_sprt_keys(Keys<TournamentSettings>& keys) {
+  keys.add(
+      "sprt.elo0", Number{-1000, 1000}, [](auto& s) -> auto& { return s.sprt.elo0; });
+  keys.add(
+      "sprt.elo1", Number{-1000, 1000}, [](auto& s) -> auto& { return s.sprt.elo1; });
+  keys.add(
+      "sprt.alpha", Number{0.0001, 0.4}, [](auto& s) -> auto& { return s.sprt.alpha; });
+  keys.add(
+      "sprt.beta", Number{0.0001, 0.4}, [](auto& s) -> auto& { return s.sprt.beta; });
+}
+
 Keys<TournamentSettings> tournament_key_table() {
   Keys<TournamentSettings> keys;
   keys.add(
       "name", Name{}, [](auto& s) -> auto& { return s.name; });
   keys.add(
-      "format", OneOf{{"round_robin"}}, [](auto& s) -> auto& { return s.format; });
+      "format",
+      OneOf{{"round_robin", "swiss", "single_elimination", "double_elimination", "gauntlet",
+             "ladder", "sprt"}},
+      [](auto& s) -> auto& { return s.format; });
+  keys.add(
+      "rounds", WholeNumber{0, 100'000}, [](auto& s) -> auto& { return s.rounds; });
+  keys.add(
+      "gauntlet_runners", WholeNumber{1, 255}, [](auto& s) -> auto& { return s.gauntlet_runners; });
+  keys.add(
+      "pace", PaceKind{}, [](auto& s) -> auto& { return s.pace; });
   keys.add(
       "rules", Rules{}, [](auto& s) -> auto& { return s.rules; });
   keys.add(
@@ -132,8 +168,10 @@ Keys<TournamentSettings> tournament_key_table() {
   keys.add(
       "seed", WholeNumber{0, (std::int64_t{1} << 53) - 1}, [](auto& s) -> auto& { return s.seed; });
   keys.add(
-      "tie_breaks", SomeOf{{"direct_encounter", "sonneborn_berger", "wins"}},
+      "tie_breaks",
+      SomeOf{{"direct_encounter", "buchholz_cut1", "buchholz", "sonneborn_berger", "wins"}},
       [](auto& s) -> auto& { return s.tie_breaks; });
+  add_sprt_keys(keys);
   add_clock_keys(keys);
   keys.leave("entry");
   return keys;
@@ -248,6 +286,56 @@ Expected<void> check_together(const TournamentSettings& settings, const Node& ro
   return {};
 }
 
+Expected<void> refuse_key(const Node& root, const std::string& file, std::string_view key,
+                          std::string reason) {
+  const Node* node = root.find(key);
+  return refuse(file, node == nullptr ? root.at : node->at, std::move(reason));
+}
+
+Expected<void> check_sprt(const TournamentSettings& settings, const Node& root,
+                          const std::string& file) {
+  if (settings.entries.size() != 2) {
+    return refuse_key(
+        root, file, "entry",
+        fmt::format("entry: {} came, expected 2 for format = \"sprt\"", settings.entries.size()));
+  }
+  if (settings.games_per_match % 2 != 0) {
+    return refuse_key(root, file, "games_per_match",
+                      fmt::format("games_per_match: {} came, expected an even number: an SPRT "
+                                  "counts pairs of games",
+                                  settings.games_per_match));
+  }
+  if (settings.rounds == 0) {
+    return refuse_key(root, file, "rounds",
+                      "rounds: 0 came, expected the most matches that an SPRT may take");
+  }
+  if (settings.sprt.elo0 >= settings.sprt.elo1) {
+    return refuse_key(root, file, "sprt",
+                      fmt::format("sprt.elo1: {} came, expected more than sprt.elo0 = {}",
+                                  settings.sprt.elo1, settings.sprt.elo0));
+  }
+  return {};
+}
+
+// What the format asks of rounds and entries.
+Expected<void> check_format(const TournamentSettings& settings, const Node& root,
+                            const std::string& file) {
+  const std::size_t entries = settings.entries.size();
+  const auto most_rounds = static_cast<std::uint32_t>(std::bit_width(entries - 1)) + 1;
+  if (settings.format == "swiss" && settings.rounds > most_rounds) {
+    return refuse_key(root, file, "rounds",
+                      fmt::format("rounds: {} came, expected at most {} for a Swiss tournament of "
+                                  "{} entries",
+                                  settings.rounds, most_rounds, entries));
+  }
+  if (settings.format == "gauntlet" && settings.gauntlet_runners >= entries) {
+    return refuse_key(root, file, "gauntlet_runners",
+                      fmt::format("gauntlet_runners: {} came, expected fewer than the {} entries",
+                                  settings.gauntlet_runners, entries));
+  }
+  return settings.format == "sprt" ? check_sprt(settings, root, file) : Expected<void>{};
+}
+
 }  // namespace
 
 Expected<TournamentSettings> parse_tournament(std::string_view text, const std::string& file) {
@@ -267,6 +355,9 @@ Expected<TournamentSettings> parse_tournament(std::string_view text, const std::
     return tl::unexpected(entries.error());
   }
   settings.entries = *std::move(entries);
+  if (auto done = check_format(settings, *root, file); !done) {
+    return tl::unexpected(done.error());
+  }
   return settings;
 }
 

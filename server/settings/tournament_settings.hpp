@@ -47,9 +47,26 @@ struct GameClock {
   std::optional<std::chrono::microseconds> shot_cap{};        // longest turn
 };
 
+enum class MatchPace : std::uint8_t {
+  free,    // a match begins as soon as the limits on concurrent games allow
+  rounds,  // none of a round before all of the rounds before are over
+};
+
+// Of format "sprt".
+struct SequentialTest {
+  double elo0 = 0;
+  double elo1 = 30;
+  double alpha = 0.05;
+  double beta = 0.05;
+};
+
 struct TournamentSettings {
   std::string name;  // of [A-Za-z0-9._-]; also its name in the database
   std::string format = "round_robin";
+  std::uint32_t rounds = 0;  // of swiss and ladder, most matches of sprt; 0: by the format
+  std::uint32_t gauntlet_runners = 1;
+  MatchPace pace = MatchPace::free;
+  SequentialTest sprt;
   rules::RuleSet rules = rules::RuleSet::eight_ball;
   std::uint32_t games_per_match = 2;
   MirroredGames mirrored = MirroredGames::rack;
@@ -60,7 +77,8 @@ struct TournamentSettings {
   std::uint32_t max_concurrent_games = 2;
   std::uint32_t max_concurrent_games_per_entry = 1;
   std::optional<std::uint64_t> seed{};  // of the racks; unset: drawn
-  std::vector<std::string> tie_breaks{"direct_encounter", "sonneborn_berger", "wins"};
+  std::vector<std::string> tie_breaks{"direct_encounter", "buchholz_cut1", "buchholz",
+                                      "sonneborn_berger", "wins"};
   GameClock clock;
   std::vector<EntrySettings> entries;
 };

@@ -3,10 +3,13 @@
 //
 //   Director director(round_robin(4), {.games = 2, .games_per_entry = 1});
 //   for (const Pairing& pairing : director.begin_due()) start(pairing);
-//   director.end(pairing.number);   // then ask again
+//   director.end(pairing.number);
+//   director.plan(schedule(format, field, happened).pairings);   // when results make new ones
+//   known
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <vector>
 
 #include "server/tournament/round_robin.hpp"
@@ -19,9 +22,19 @@ struct ConcurrencyLimits {
   std::uint32_t games_per_entry = 1;
 };
 
+enum class Pace : std::uint8_t {
+  free_running,  // a match begins as soon as the limits allow
+  by_rounds,     // none of a round before all of the rounds before are over
+};
+
 class Director {
  public:
-  Director(std::vector<Pairing> schedule, ConcurrencyLimits limits);
+  Director(const std::vector<Pairing>& schedule, ConcurrencyLimits limits,
+           Pace pace = Pace::free_running);
+
+  // The schedule as it is now: new pairings wait, waiting ones that are not in it any more are
+  // dropped; what has begun stays.
+  void plan(const std::vector<Pairing>& schedule);
 
   // Those that are due now and were not before, in the order of the schedule; they count as
   // running from here on.
@@ -33,20 +46,24 @@ class Director {
   // A match is over, whether it was begun here or in an earlier run of the tournament.
   void end(std::uint32_t pairing);
 
+  [[nodiscard]] bool is_known(std::uint32_t pairing) const { return slots_.contains(pairing); }
   [[nodiscard]] bool is_running(std::uint32_t pairing) const;
   [[nodiscard]] bool is_over(std::uint32_t pairing) const;
   [[nodiscard]] bool all_over() const;
-  [[nodiscard]] const std::vector<Pairing>& schedule() const { return schedule_; }
 
  private:
   enum class Status : std::uint8_t { waiting, running, over };
+  struct Slot {
+    Pairing pairing;
+    Status status = Status::waiting;
+  };
 
-  [[nodiscard]] std::uint32_t running_of(EntryId entry) const;
   [[nodiscard]] bool may_begin(const Pairing& pairing) const;
+  [[nodiscard]] bool earlier_round_goes_on(std::uint32_t round) const;
 
-  std::vector<Pairing> schedule_;  // Pairing::number is the index
-  std::vector<Status> status_;
+  std::map<std::uint32_t, Slot> slots_;  // by Pairing::number
   ConcurrencyLimits limits_;
+  Pace pace_;
 };
 
 }  // namespace poolhall::tournament

@@ -16,6 +16,7 @@ struct PlayedGame {
   EntryId other{};
   std::optional<EntryId> winner{};  // one of the two; unset: drawn
   rules::EndReason reason = rules::EndReason::conceded;
+  std::uint32_t turns = 0;  // stored ones, the one that ended it too
 
   friend bool operator==(const PlayedGame&, const PlayedGame&) = default;
 };

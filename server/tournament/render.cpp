@@ -79,6 +79,10 @@ std::string_view heading(TieBreak tie_break) {
   switch (tie_break) {
     case TieBreak::direct_encounter:
       return "Direct";
+    case TieBreak::buchholz_cut1:
+      return "Bh-C1";
+    case TieBreak::buchholz:
+      return "Bh";
     case TieBreak::sonneborn_berger:
       return "S-B";
     case TieBreak::wins:

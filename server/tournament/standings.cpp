@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <iterator>
+#include <numeric>
+#include <set>
 #include <utility>
 
 namespace poolhall::tournament {
 namespace {
 
-constexpr std::array<std::pair<TieBreak, std::string_view>, 3> tie_break_names{{
+constexpr std::array<std::pair<TieBreak, std::string_view>, 5> tie_break_names{{
     {TieBreak::direct_encounter, "direct_encounter"},
+    {TieBreak::buchholz_cut1, "buchholz_cut1"},
+    {TieBreak::buchholz, "buchholz"},
     {TieBreak::sonneborn_berger, "sonneborn_berger"},
     {TieBreak::wins, "wins"},
 }};
@@ -47,14 +51,43 @@ std::vector<double> sonneborn_berger(const Rows& rows, const std::vector<PlayedG
   return sums;
 }
 
+// Points of each entry's opponents, ascending: one for each match and each unplayed round.
+std::vector<std::vector<double>> opponents_points(const Rows& rows,
+                                                  const std::vector<PlayedGame>& games,
+                                                  const std::vector<std::uint32_t>& unplayed) {
+  std::vector<std::vector<double>> points(rows.size());
+  std::set<std::uint32_t> counted;
+  for (const PlayedGame& game : games) {
+    if (counted.insert(game.pairing).second) {
+      points[index(game.breaker)].push_back(rows[index(game.other)].points);
+      points[index(game.other)].push_back(rows[index(game.breaker)].points);
+    }
+  }
+  for (std::size_t i = 0; i < unplayed.size(); ++i) {
+    points[i].insert(points[i].end(), unplayed[i], rows[i].points);
+  }
+  for (auto& list : points) {
+    std::sort(list.begin(), list.end());
+  }
+  return points;
+}
+
+double sum(const std::vector<double>& values, std::size_t from) {
+  return from >= values.size() ? 0
+                               : std::accumulate(values.begin() + static_cast<std::ptrdiff_t>(from),
+                                                 values.end(), 0.0);
+}
+
 // Orders entries by splitting groups of tied ones by one criterion after the other.
 class Ranking {
  public:
-  Ranking(Rows rows, const std::vector<PlayedGame>& games, const std::vector<TieBreak>& tie_breaks)
+  Ranking(Rows rows, const std::vector<PlayedGame>& games, const TableRules& rules)
       : rows_(std::move(rows)),
         games_(games),
-        tie_breaks_(tie_breaks),
-        sonneborn_berger_(sonneborn_berger(rows_, games)) {
+        tie_breaks_(rules.tie_breaks),
+        places_(rules.places),
+        sonneborn_berger_(sonneborn_berger(rows_, games)),
+        opponents_(opponents_points(rows_, games, rules.unplayed)) {
     for (StandingsRow& row : rows_) {
       row.tie_breaks.assign(tie_breaks_.size(), 0);
     }
@@ -65,9 +98,13 @@ class Ranking {
     for (std::size_t i = 0; i < all.size(); ++i) {
       all[i] = i;
     }
+    const auto by_points = [&](const std::vector<std::size_t>& tied) {
+      split(
+          tied, [&](std::size_t i) { return rows_[i].points; },
+          [&](const std::vector<std::size_t>& still_tied) { part(still_tied, 0); });
+    };
     split(
-        all, [&](std::size_t i) { return rows_[i].points; },
-        [&](const std::vector<std::size_t>& tied) { part(tied, 0); });
+        all, [&](std::size_t i) { return places_.empty() ? 0.0 : -1.0 * places_[i]; }, by_points);
     return std::move(ordered_);
   }
 
@@ -107,6 +144,12 @@ class Ranking {
         return direct_encounter(tied);
       case TieBreak::sonneborn_berger:
         return sonneborn_berger_;
+      case TieBreak::buchholz:
+      case TieBreak::buchholz_cut1:
+        for (const std::size_t i : tied) {
+          values[i] = sum(opponents_[i], criterion == TieBreak::buchholz ? 0 : 1);
+        }
+        break;
       case TieBreak::wins:
         for (const std::size_t i : tied) {
           values[i] = rows_[i].wins;
@@ -142,15 +185,19 @@ class Ranking {
   Rows rows_;
   const std::vector<PlayedGame>& games_;
   const std::vector<TieBreak>& tie_breaks_;
+  const std::vector<std::uint32_t>& places_;
   std::vector<double> sonneborn_berger_;
+  std::vector<std::vector<double>> opponents_;
   Rows ordered_;
 };
 
 std::vector<ratings::RatedGame> rated(const std::vector<PlayedGame>& games) {
   std::vector<ratings::RatedGame> rated;
   std::transform(games.begin(), games.end(), std::back_inserter(rated), [](const PlayedGame& game) {
+    // Games of a pair share their rack.
+    const std::uint64_t pair = (std::uint64_t{game.pairing} << 32U) | (game.number / 2);
     return ratings::RatedGame{index(game.breaker), index(game.other), score_of(game, game.breaker),
-                              1};
+                              1, pair};
   });
   return rated;
 }
@@ -171,12 +218,25 @@ std::optional<TieBreak> tie_break(std::string_view name) {
 
 Standings standings(std::size_t entries, const std::vector<PlayedGame>& games,
                     const std::vector<TieBreak>& tie_breaks) {
+  return standings(entries, games, TableRules{.tie_breaks = tie_breaks});
+}
+
+Standings standings(std::size_t entries, const std::vector<PlayedGame>& games,
+                    const TableRules& rules) {
   Standings table;
-  table.rows = Ranking(counted(entries, games), games, tie_breaks).ranked();
-  table.tie_breaks = tie_breaks;
+  Rows rows = counted(entries, games);
+  for (std::size_t i = 0; i < rules.points.size(); ++i) {
+    rows[i].points = rules.points[i];
+  }
+  table.rows = Ranking(std::move(rows), games, rules).ranked();
+  table.tie_breaks = rules.tie_breaks;
   const ratings::RatingTable ratings = ratings::bradley_terry(entries, rated(games));
   for (StandingsRow& row : table.rows) {
     row.rating = ratings.players[index(row.entry)];
+  }
+  for (std::size_t i = 0; i + 1 < table.rows.size(); ++i) {
+    table.rows[i].superiority = ratings::likelihood_of_superiority(
+        ratings, index(table.rows[i].entry), index(table.rows[i + 1].entry));
   }
   table.break_advantage = ratings.break_advantage;
   for (const PlayedGame& game : games) {

@@ -18,6 +18,8 @@ namespace poolhall::tournament {
 // How entries with the same points are ordered.
 enum class TieBreak : std::uint8_t {
   direct_encounter,  // points in the games among those still tied
+  buchholz_cut1,     // Buchholz without the lowest opponent
+  buchholz,          // sum of the opponents' points, one for each match
   sonneborn_berger,  // for each game, the opponent's points times what was scored
   wins,              // games won
 };
@@ -33,8 +35,19 @@ struct StandingsRow {
   std::uint32_t draws = 0;
   std::vector<double> tie_breaks;  // in the declared order
   ratings::PlayerRating rating;
+  // Likelihood of superiority over the next row's entry, where ratings can be compared.
+  std::optional<double> superiority{};
 
   [[nodiscard]] std::uint32_t games() const { return wins + losses + draws; }
+};
+
+// What a format changes in the table.
+struct TableRules {
+  std::vector<TieBreak> tie_breaks;
+  std::vector<std::uint32_t> places{};    // by entry: its own order, before points; empty: none
+  std::vector<double> points{};           // by entry, instead of those of the games; empty: those
+  std::vector<std::uint32_t> unplayed{};  // by entry: rounds that count as an opponent with the
+                                          // entry's own points for Buchholz; empty: none
 };
 
 struct Standings {
@@ -44,6 +57,8 @@ struct Standings {
   std::map<rules::EndReason, std::uint32_t> endings;
 };
 
+[[nodiscard]] Standings standings(std::size_t entries, const std::vector<PlayedGame>& games,
+                                  const TableRules& rules);
 [[nodiscard]] Standings standings(std::size_t entries, const std::vector<PlayedGame>& games,
                                   const std::vector<TieBreak>& tie_breaks);
 

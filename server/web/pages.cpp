@@ -11,6 +11,7 @@
 #include "protocol/json_writer.hpp"
 #include "protocol/state_json.hpp"
 #include "server/match/chain.hpp"
+#include "server/web/table_pages.hpp"
 
 namespace poolhall::web {
 
@@ -325,6 +326,12 @@ Page answer(Reader& reader, std::string_view path) {
   }
   if (segments.size() == 3 && what == "tournaments") {
     return tournament_page(reader, segments[2]);
+  }
+  if (segments.size() == 2 && what == "tournaments.txt") {
+    return tournament_list_page(reader);
+  }
+  if (segments.size() == 4 && what == "tournaments") {
+    return table_page(reader, segments[2], segments[3]);
   }
   const bool shot = segments.size() == 5 && segments[3] == "shots";
   if (what == "games" && (segments.size() == 3 || shot)) {

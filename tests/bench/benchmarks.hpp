@@ -39,6 +39,9 @@ bool bench_lean(const BenchOptions& options, std::ostream& out);
 // scenes in a file. Throws std::runtime_error that names the file and line of what cannot be read.
 bool bench_speed(const BenchOptions& options, std::ostream& out);
 
+// Coverage of the ratings' intervals and error rates of the sequential test, simulated.
+bool bench_ratings(const BenchOptions& options, std::ostream& out);
+
 // Random games of both rule sets, and what must hold of every game.
 bool bench_rules(const BenchOptions& options, std::ostream& out);
 

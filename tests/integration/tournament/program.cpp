@@ -18,7 +18,7 @@ constexpr int patience_ms = 240'000;
 
 Program::Program(const std::filesystem::path& directory,
                  const std::vector<std::string>& arguments) {
-  std::vector<std::string> words{POOLHALL_PROGRAM, "tournament", "run"};
+  std::vector<std::string> words{POOLHALL_PROGRAM};
   words.insert(words.end(), arguments.begin(), arguments.end());
   std::vector<char*> pointers;
   for (std::string& word : words) {

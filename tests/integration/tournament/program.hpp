@@ -1,6 +1,6 @@
-// `poolhall tournament run` as a child process in a directory of its own, read line by line.
+// The program as a child process in a directory of its own, read line by line.
 //
-//   Program program{directory.path(), {"cup.toml", "--db", "cup.db"}};
+//   Program program{directory.path(), {"tournament", "run", "cup.toml", "--db", "cup.db"}};
 //   while (auto line = program.next_line()) ...;
 //   program.wait();   // the exit code
 #pragma once

@@ -29,7 +29,9 @@ class TournamentRun : public testing::Test {
     std::ofstream(directory_ / file) << text;
   }
   [[nodiscard]] Program run(const std::vector<std::string>& arguments) const {
-    return Program(directory_.path(), arguments);
+    std::vector<std::string> words{"tournament", "run"};
+    words.insert(words.end(), arguments.begin(), arguments.end());
+    return Program(directory_.path(), words);
   }
 
   test_support::TemporaryDirectory directory_;

@@ -3,7 +3,7 @@
 #include <gmock/gmock.h>
 
 #include <algorithm>
-#include <deque>
+#include <map>
 #include <memory>
 
 namespace poolhall::net {
@@ -186,6 +186,89 @@ TEST_F(TournamentDriverTest, BegunAgainWhenEverythingIsOverItOnlyShowsTheTable) 
   EXPECT_THAT(host_.orders, IsEmpty());
   EXPECT_TRUE(view_->over);
   EXPECT_THAT(view_->games, SizeIs(6));
+}
+
+const std::string eight_entries = [] {
+  std::string entries;
+  for (const char* name : {"a", "b", "c", "d", "e", "f", "g", "h"}) {
+    entries += "[[entry]]\nname = \"" + std::string(name) + "\"\nhouse = \"random\"\n";
+  }
+  return entries;
+}();
+
+std::string of_format(const std::string& format) {
+  return "name = \"cup\"\nformat = \"" + format +
+         "\"\ngames_per_match = 2\nmax_concurrent_games = 4\n" + eight_entries;
+}
+
+class FormatTest : public TournamentDriverTest, public testing::WithParamInterface<const char*> {
+ protected:
+  // Somebody wins; always the same one in the same match.
+  static std::uint32_t winner(const FakeHost& host) {
+    return host.orders.at(host.played).pairing % 3 == 0 ? 0 : 1;
+  }
+};
+
+TEST_P(FormatTest, IsPlayedToItsEnd) {
+  begin(of_format(GetParam()));
+  ASSERT_TRUE(begun_);
+  while (!view_->over) {
+    ASSERT_LT(host_.played, host_.orders.size());
+    host_.play_next(winner(host_));
+  }
+  EXPECT_EQ(host_.orders.size(), host_.played);
+  EXPECT_THAT(host_.announced, SizeIs(8));
+}
+
+TEST_P(FormatTest, BegunAgainInTheMiddleItHasTheSameSchedule) {
+  begin(of_format(GetParam()));
+  while (!view_->over) {
+    host_.play_next(winner(host_));
+  }
+  std::map<std::uint32_t, MatchOrder> all;
+  for (const MatchOrder& order : host_.orders) {
+    all[order.pairing] = order;
+  }
+  FakeHost killed;
+  TournamentDriver first_run(file(of_format(GetParam())), killed, [this] { return now_; });
+  ASSERT_TRUE(first_run.begin(7));
+  while (killed.played < all.size() / 2) {
+    killed.play_next(winner(killed));
+  }
+  for (std::size_t i = killed.played; i < killed.orders.size(); ++i) {
+    killed.unfinished.push_back({"cup", killed.orders[i].pairing, MatchId{99}, {}});
+  }
+  killed.orders.resize(killed.played);
+  TournamentDriver second_run(file(of_format(GetParam())), killed, [this] { return now_; });
+  ASSERT_TRUE(second_run.begin(8));
+  while (killed.played < killed.orders.size()) {
+    killed.play_next(winner(killed));
+  }
+  EXPECT_TRUE(second_run.view().over);
+  ASSERT_EQ(killed.orders.size(), all.size());
+  for (const MatchOrder& order : killed.orders) {
+    EXPECT_EQ(order.agents, all[order.pairing].agents);
+    EXPECT_EQ(order.seed, all[order.pairing].seed);
+  }
+  EXPECT_EQ(killed.announced.front().agent, host_.announced.front().agent);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, FormatTest,
+                         testing::Values("round_robin", "swiss", "single_elimination",
+                                         "double_elimination", "gauntlet", "ladder"));
+
+TEST_F(TournamentDriverTest, AnSprtStopsWhenItIsDecided) {
+  begin(
+      "name = \"cup\"\nformat = \"sprt\"\nrounds = 500\nmax_concurrent_games = 2\n"
+      "max_concurrent_games_per_entry = 2\nsprt.elo1 = 200\n"
+      "[[entry]]\nagent = \"Anna\"\n[[entry]]\nagent = \"Bert\"\n");
+  ASSERT_TRUE(begun_);
+  for (std::uint32_t match = 0; !view_->over; ++match) {
+    host_.play_next(host_.orders[host_.played].agents[0] == "Anna" ? 0 : 1);
+  }
+  EXPECT_LT(host_.played, 100U);
+  EXPECT_EQ(host_.played, host_.orders.size());
+  EXPECT_THAT(view_->note.value_or(""), HasSubstr("H1 accepted"));
 }
 
 TEST_F(TournamentDriverTest, AnotherTournamentOfTheSameNameIsRefused) {

@@ -119,16 +119,47 @@ TEST(TournamentSettings, UnknownKeysOfAnEntryAreRefusedWithTheNearestName) {
 }
 
 TEST(TournamentSettings, WrongValuesAreRefused) {
-  for (const char* line :
-       {"format = \"knockout\"", "rules = \"snooker\"", "games_per_match = 0", "mirrored = true",
-        "noise = \"some\"", "table = \"no such table\"", "physics = 1", "rack_gap_mm = -0.1",
-        "rack_gap_mm = nan", "max_concurrent_games = 0", "seed = -1", "seed = 9007199254740992",
-        "tie_breaks = [\"wins\", \"wins\"]", "tie_breaks = \"wins\"", "tie_breaks = [\"buchholz\"]",
-        "clock.game_seconds = 0", "clock.shot_cap_seconds = 0"}) {
+  for (const char* line : {"format = \"knockout\"",
+                           "rules = \"snooker\"",
+                           "games_per_match = 0",
+                           "mirrored = true",
+                           "noise = \"some\"",
+                           "table = \"no such table\"",
+                           "physics = 1",
+                           "rack_gap_mm = -0.1",
+                           "rack_gap_mm = nan",
+                           "max_concurrent_games = 0",
+                           "seed = -1",
+                           "seed = 9007199254740992",
+                           "tie_breaks = [\"wins\", \"wins\"]",
+                           "tie_breaks = \"wins\"",
+                           "tie_breaks = [\"median\"]",
+                           "rounds = -1",
+                           "pace = \"fast\"",
+                           "gauntlet_runners = 0",
+                           "sprt.alpha = 0.5",
+                           "clock.game_seconds = 0",
+                           "clock.shot_cap_seconds = 0"}) {
     EXPECT_THAT(tournament_refusal("name = \"cup\"\n" + std::string(line) + "\n" + two_entries),
                 HasSubstr("came, expected"))
         << line;
   }
+}
+
+TEST(TournamentSettings, AFormatSaysWhatItAsksOfRoundsAndEntries) {
+  EXPECT_THAT(tournament_refusal("name = \"cup\"\nformat = \"swiss\"\nrounds = 3\n" + two_entries),
+              HasSubstr("rounds: 3 came, expected at most 2"));
+  EXPECT_EQ(tournament_refusal("name = \"cup\"\nformat = \"swiss\"\nrounds = 2\n" + two_entries), "accepted");
+  EXPECT_THAT(
+      tournament_refusal("name = \"cup\"\nformat = \"gauntlet\"\ngauntlet_runners = 2\n" + two_entries),
+      HasSubstr("gauntlet_runners: 2 came, expected fewer"));
+  const std::string sprt = "name = \"cup\"\nformat = \"sprt\"\n";
+  EXPECT_THAT(tournament_refusal(sprt + two_entries), HasSubstr("rounds: 0 came"));
+  EXPECT_THAT(tournament_refusal(sprt + "rounds = 9\nsprt.elo0 = 40\n" + two_entries),
+              HasSubstr("sprt.elo1: 30 came, expected more than sprt.elo0 = 40"));
+  EXPECT_THAT(tournament_refusal(sprt + "rounds = 9\n" + two_entries + "[[entry]]\nagent = \"Anna\"\n"),
+              HasSubstr("entry: 3 came, expected 2"));
+  EXPECT_EQ(tournament_refusal(sprt + "rounds = 9\n" + two_entries), "accepted");
 }
 
 TEST(TournamentSettings, OptionsThatAreNoWordsOfACommandLineAreRefused) {

@@ -1,0 +1,65 @@
+#include "server/ledger/stored_tournament.hpp"
+
+#include <algorithm>
+
+namespace poolhall::ledger {
+
+std::optional<ScoredGame> scored_game(const storage::MatchRecord& match,
+                                      const storage::GameRecord& game) {
+  if (!game.over || !game.result || game.result->reason == rules::EndReason::void_game) {
+    return std::nullopt;
+  }
+  const auto player_in = [&](rules::Seat seat) {
+    return game.agents[rules::index(seat)] == match.agents[0] ? 0U : 1U;
+  };
+  ScoredGame scored;
+  scored.number = game.number;
+  scored.breaker = player_in(game.breaker);
+  if (game.result->winner) {
+    scored.winner = player_in(*game.result->winner);
+  }
+  scored.reason = game.result->reason;
+  scored.turns = game.turns;
+  return scored;
+}
+
+storage::Expected<std::optional<StoredTournament>> stored_tournament(storage::Reader& reader,
+                                                                     std::string_view id) {
+  const auto tournaments = reader.tournaments();
+  if (!tournaments) {
+    return tl::unexpected(tournaments.error());
+  }
+  const auto record = std::find_if(tournaments->begin(), tournaments->end(),
+                                   [&](const auto& one) { return one.id == id; });
+  if (record == tournaments->end()) {
+    return std::nullopt;
+  }
+  const auto settings = settings::parse_tournament(record->settings, record->id);
+  if (!settings) {
+    return tl::unexpected(
+        storage::StorageError{storage::StorageFault::unreadable, settings::text(settings.error())});
+  }
+  const auto matches = reader.matches_of(id);
+  if (!matches) {
+    return tl::unexpected(matches.error());
+  }
+  StoredTournament stored{*record, TournamentBook(*settings)};
+  for (const storage::MatchRecord& match : *matches) {
+    const auto games = reader.games_of(match.id);
+    if (!games) {
+      return tl::unexpected(games.error());
+    }
+    std::vector<ScoredGame> scored;
+    for (const storage::GameRecord& game : *games) {
+      if (const auto counts = scored_game(match, game)) {
+        scored.push_back(*counts);
+      }
+    }
+    stored.book.take(match.pairing.value_or(0), scored,
+                     match.over ? MatchStage::over : MatchStage::going_on);
+  }
+  stored.book.plan();
+  return stored;
+}
+
+}  // namespace poolhall::ledger

@@ -1,0 +1,162 @@
+#include "server/tournament/format.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <numeric>
+#include <utility>
+
+#include "server/tournament/formats.hpp"
+
+namespace poolhall::tournament {
+namespace {
+
+constexpr std::array<std::pair<FormatKind, std::string_view>, 7> kinds{{
+    {FormatKind::round_robin, "round_robin"},
+    {FormatKind::swiss, "swiss"},
+    {FormatKind::single_elimination, "single_elimination"},
+    {FormatKind::double_elimination, "double_elimination"},
+    {FormatKind::gauntlet, "gauntlet"},
+    {FormatKind::ladder, "ladder"},
+    {FormatKind::sprt, "sprt"},
+}};
+
+}  // namespace
+
+std::string_view name(FormatKind kind) {
+  return std::find_if(kinds.begin(), kinds.end(),
+                      [kind](const auto& entry) { return entry.first == kind; })
+      ->second;
+}
+
+std::optional<FormatKind> format_kind(std::string_view name) {
+  const auto found = std::find_if(kinds.begin(), kinds.end(),
+                                  [name](const auto& entry) { return entry.second == name; });
+  return found == kinds.end() ? std::nullopt : std::optional(found->first);
+}
+
+double MatchResult::first_points() const {
+  return std::accumulate(first_scores.begin(), first_scores.end(), 0.0);
+}
+
+double MatchResult::second_points() const {
+  return static_cast<double>(first_scores.size()) - first_points();
+}
+
+Schedule schedule(const FormatSettings& format, const std::vector<EntrySpan>& field,
+                  const Happened& happened, const Schedule& drawn) {
+  switch (format.kind) {
+    case FormatKind::round_robin:
+      return fixed_schedule(round_robin(field.size()), field, happened);
+    case FormatKind::gauntlet:
+      return fixed_schedule(gauntlet(field.size(), format.runners), field, happened);
+    case FormatKind::swiss:
+      return swiss_schedule(format, field, happened, drawn);
+    case FormatKind::single_elimination:
+    case FormatKind::double_elimination:
+      return elimination_schedule(format, field, happened);
+    case FormatKind::ladder:
+      return ladder_schedule(format, field, happened);
+    case FormatKind::sprt:
+      break;
+  }
+  return sprt_schedule(format, happened);
+}
+
+std::uint32_t swiss_rounds_of(std::size_t entries) {
+  return entries < 2 ? 0 : static_cast<std::uint32_t>(std::bit_width(entries - 1));
+}
+
+bool takes_late_entries(FormatKind kind) {
+  return kind == FormatKind::swiss || kind == FormatKind::ladder;
+}
+
+TableRules table_rules(const FormatSettings& format, const Schedule& schedule,
+                       const Happened& happened, std::vector<TieBreak> tie_breaks) {
+  TableRules rules{.tie_breaks = std::move(tie_breaks), .places = schedule.places};
+  if (format.kind != FormatKind::swiss) {
+    return rules;
+  }
+  rules.points.assign(schedule.swiss.size(), 0);
+  rules.unplayed.assign(schedule.swiss.size(), 0);
+  for (const RoundOff& off : schedule.off) {
+    rules.points[index(off.entry)] += off.kind == RoundKind::bye ? 1 : 0;
+    ++rules.unplayed[index(off.entry)];
+  }
+  for (const Pairing& pairing : schedule.pairings) {
+    const auto found = happened.results.find(pairing.number);
+    if (found != happened.results.end()) {
+      const double lead = found->second.first_points() - found->second.second_points();
+      const double of_first = lead > 0 ? 1 : lead < 0 ? 0 : 0.5;
+      rules.points[index(pairing.first)] += of_first;
+      rules.points[index(pairing.second)] += 1 - of_first;
+    }
+  }
+  return rules;
+}
+
+Schedule fixed_schedule(std::vector<Pairing> pairings, const std::vector<EntrySpan>& field,
+                        const Happened& happened) {
+  std::erase_if(pairings, [&](const Pairing& pairing) {
+    const bool withdrawn = field[index(pairing.first)].until || field[index(pairing.second)].until;
+    return withdrawn && !happened.begun.contains(pairing.number);
+  });
+  Schedule now;
+  now.is_complete = std::all_of(pairings.begin(), pairings.end(), [&](const Pairing& pairing) {
+    return happened.results.contains(pairing.number);
+  });
+  for (const Pairing& pairing : pairings) {
+    now.rounds_drawn = std::max(now.rounds_drawn, pairing.round + 1);
+  }
+  now.pairings = std::move(pairings);
+  return now;
+}
+
+std::vector<Pairing> gauntlet(std::size_t entries, std::size_t runners) {
+  std::vector<Pairing> pairings;
+  if (runners >= entries) {
+    return pairings;
+  }
+  const std::size_t others = entries - runners;
+  for (std::size_t round = 0; round < others; ++round) {
+    for (std::size_t runner = 0; runner < runners; ++runner) {
+      const EntryId one = entry_id(runner);
+      const EntryId two = entry_id(runners + (runner + round) % others);
+      const bool runner_first = (round + runner) % 2 == 0;
+      pairings.push_back({static_cast<std::uint32_t>(pairings.size()),
+                          static_cast<std::uint32_t>(round), runner_first ? one : two,
+                          runner_first ? two : one});
+    }
+  }
+  return pairings;
+}
+
+Schedule sprt_schedule(const FormatSettings& format, const Happened& happened) {
+  const EntryId one = entry_id(0);
+  const EntryId two = entry_id(1);
+  Schedule now;
+  std::vector<double> scores;  // of the first entry, by game, as far as all before are over
+  std::vector<std::size_t> games_until;  // by match
+  for (std::uint32_t number = 0; number < format.rounds && happened.results.contains(number);
+       ++number) {
+    const bool turned = number % 2 == 1;
+    for (const double score : happened.results.at(number).first_scores) {
+      scores.push_back(turned ? 1 - score : score);
+    }
+    games_until.push_back(scores.size());
+  }
+  now.sprt = ratings::sprt(scores, format.sprt);
+  const bool decided = now.sprt->verdict != ratings::SprtVerdict::undecided;
+  const auto deciding =
+      std::lower_bound(games_until.begin(), games_until.end(), std::size_t{2} * now.sprt->pairs);
+  const auto needed = static_cast<std::uint32_t>(deciding - games_until.begin()) + 1;
+  for (std::uint32_t number = 0; number < (decided ? needed : format.rounds); ++number) {
+    now.pairings.push_back(
+        {number, number, number % 2 == 0 ? one : two, number % 2 == 0 ? two : one});
+  }
+  now.rounds_drawn = format.rounds;
+  now.is_complete = decided || games_until.size() == format.rounds;
+  return now;
+}
+
+}  // namespace poolhall::tournament

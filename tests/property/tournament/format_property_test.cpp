@@ -1,0 +1,255 @@
+// Every format on random results: the schedule grows, ends, keeps to its rules and is the same
+// again from the same results.
+#include <gtest/gtest.h>
+
+#include <map>
+#include <random>
+#include <set>
+
+#include "server/tournament/elimination.hpp"
+#include "server/tournament/format.hpp"
+
+namespace poolhall::tournament {
+namespace {
+
+constexpr std::array kinds{FormatKind::round_robin,        FormatKind::swiss,
+                           FormatKind::single_elimination, FormatKind::double_elimination,
+                           FormatKind::gauntlet,           FormatKind::ladder};
+
+FormatSettings format_of(FormatKind kind) {
+  FormatSettings format;
+  format.kind = kind;
+  format.rounds = kind == FormatKind::ladder ? 6 : 0;
+  return format;
+}
+
+// Plays a tournament: in each step one of the known matches that are not over ends.
+class Play {
+ public:
+  Play(FormatKind kind, std::size_t entries, std::uint64_t seed)
+      : format_(format_of(kind)), field_(entries), random_(seed) {
+    now_ = schedule(format_, field_, happened_);
+  }
+
+  [[nodiscard]] bool step() {
+    std::vector<const Pairing*> open;
+    for (const Pairing& pairing : now_.pairings) {
+      if (!happened_.results.contains(pairing.number)) {
+        open.push_back(&pairing);
+      }
+    }
+    if (open.empty()) {
+      return false;
+    }
+    const std::uint32_t number = open[random_() % open.size()]->number;
+    happened_.begun.insert(number);
+    happened_.results[number] = result();
+    before_ = now_;
+    now_ = schedule(format_, field_, happened_, before_);
+    return true;
+  }
+  // Somebody leaves; the round is the one that would be drawn next.
+  void withdraw(std::size_t entry) {
+    field_[entry].until = now_.rounds_drawn;
+    now_ = schedule(format_, field_, happened_, now_);
+  }
+
+  [[nodiscard]] const Schedule& now() const { return now_; }
+  [[nodiscard]] const Schedule& before() const { return before_; }
+  [[nodiscard]] Schedule from_scratch() const { return schedule(format_, field_, happened_); }
+  [[nodiscard]] const Happened& happened() const { return happened_; }
+  [[nodiscard]] std::uint64_t random() { return random_(); }
+
+ private:
+  MatchResult result() {
+    MatchResult result;
+    for (int game = 0; game < 3; ++game) {
+      result.first_scores.push_back(random_() % 20 == 0 ? 0.5 : random_() % 2 == 0 ? 1 : 0);
+    }
+    result.was_played = random_() % 25 != 0;
+    return result;
+  }
+
+  FormatSettings format_;
+  std::vector<EntrySpan> field_;
+  Happened happened_;
+  std::mt19937_64 random_;
+  Schedule now_;
+  Schedule before_;
+};
+
+TEST(FormatProperty, SchedulesGrowEndAndAreTheSameFromTheSameResults) {
+  for (const FormatKind kind : kinds) {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      const std::size_t entries = 2 + seed % 8 + (kind == FormatKind::swiss ? 4 : 0);
+      Play play(kind, entries, seed);
+      std::size_t steps = 0;
+      while (play.step()) {
+        ASSERT_LT(++steps, 2000U) << name(kind);
+        const auto& before = play.before().pairings;
+        std::map<std::uint32_t, Pairing> now;
+        for (const Pairing& pairing : play.now().pairings) {
+          now[pairing.number] = pairing;
+        }
+        for (const Pairing& pairing : before) {
+          ASSERT_TRUE(now.contains(pairing.number) && now[pairing.number] == pairing) << name(kind);
+        }
+        const Schedule again = play.from_scratch();
+        ASSERT_EQ(again.pairings, play.now().pairings) << name(kind);
+        ASSERT_EQ(again.off, play.now().off);
+      }
+      EXPECT_TRUE(play.now().is_complete) << name(kind) << ' ' << entries;
+      std::set<std::uint32_t> numbers;
+      for (const Pairing& pairing : play.now().pairings) {
+        EXPECT_TRUE(numbers.insert(pairing.number).second);
+        EXPECT_NE(pairing.first, pairing.second);
+      }
+    }
+  }
+}
+
+TEST(FormatProperty, WhoHasWithdrawnGetsNoMatchesThatHadNotBegun) {
+  for (const FormatKind kind : kinds) {
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      Play play(kind, 6, seed);
+      for (int i = 0; i < 3; ++i) {
+        static_cast<void>(play.step());
+      }
+      std::set<std::uint32_t> known;
+      for (const Pairing& pairing : play.now().pairings) {
+        known.insert(pairing.number);
+      }
+      const std::size_t gone = play.random() % 6;
+      play.withdraw(gone);
+      while (play.step()) {
+      }
+      EXPECT_TRUE(play.now().is_complete) << name(kind) << " seed " << seed;
+      for (const Pairing& pairing : play.now().pairings) {
+        if (index(pairing.first) == gone || index(pairing.second) == gone) {
+          EXPECT_TRUE(known.contains(pairing.number)) << name(kind);
+        }
+      }
+    }
+  }
+}
+
+// By entry, matches lost in elimination (drawn ones are played again).
+std::vector<std::size_t> losses(const Play& play, std::size_t entries) {
+  std::vector<std::size_t> lost(entries, 0);
+  for (const Pairing& pairing : play.now().pairings) {
+    const MatchResult& result = play.happened().results.at(pairing.number);
+    const double lead = result.first_points() - result.second_points();
+    if (lead != 0) {
+      ++lost[index(lead > 0 ? pairing.second : pairing.first)];
+    }
+  }
+  return lost;
+}
+
+TEST(EliminationProperty, OneLossPutsOutOfASingleAndTwoOutOfADoubleElimination) {
+  for (const FormatKind kind : {FormatKind::single_elimination, FormatKind::double_elimination}) {
+    const std::size_t lives = kind == FormatKind::single_elimination ? 1 : 2;
+    for (std::size_t entries = 2; entries <= 33; ++entries) {
+      Play play(kind, entries, entries);
+      while (play.step()) {
+      }
+      const auto lost = losses(play, entries);
+      std::size_t still_in = 0;
+      for (std::size_t i = 0; i < entries; ++i) {
+        EXPECT_LE(lost[i], lives);
+        still_in += lost[i] < lives ? 1 : 0;
+        EXPECT_EQ(lost[i] < lives, play.now().places[i] == 0) << entries << " entries";
+      }
+      EXPECT_EQ(still_in, 1U) << name(kind) << ' ' << entries;
+    }
+  }
+}
+
+TEST(EliminationProperty, TheFirstSeedsHaveTheByesAndMeetLast) {
+  for (std::size_t entries = 2; entries <= 64; ++entries) {
+    const auto tree = single_elimination_tree(entries);
+    std::size_t byes = 0;
+    for (const BracketMatch& match : tree) {
+      if (match.one.kind == BracketSource::Kind::seed && match.two.of >= entries) {
+        ++byes;
+        EXPECT_LT(match.one.of, tree.size() + 1 - entries);
+      }
+    }
+    EXPECT_EQ(byes, tree.size() + 1 - entries);
+  }
+}
+
+TEST(GauntletProperty, RunnersMeetEveryOtherAndTheOthersNobodyElse) {
+  FormatSettings format;
+  format.kind = FormatKind::gauntlet;
+  format.runners = 2;
+  const Schedule now = schedule(format, std::vector<EntrySpan>(7), {});
+  std::set<std::pair<EntryId, EntryId>> met;
+  std::set<std::pair<std::uint32_t, EntryId>> busy;
+  for (const Pairing& pairing : now.pairings) {
+    const auto pair = std::minmax(pairing.first, pairing.second);
+    EXPECT_LT(index(pair.first), 2U);
+    EXPECT_GE(index(pair.second), 2U);
+    EXPECT_TRUE(met.insert(pair).second);
+    EXPECT_TRUE(busy.insert({pairing.round, pairing.first}).second);
+    EXPECT_TRUE(busy.insert({pairing.round, pairing.second}).second);
+  }
+  EXPECT_EQ(met.size(), 10U);
+}
+
+TEST(LadderProperty, NeighboursByRatingMeetAndWinnersRise) {
+  FormatSettings format;
+  format.kind = FormatKind::ladder;
+  format.rounds = 40;
+  const std::vector<EntrySpan> field(5);
+  Happened happened;
+  Schedule now = schedule(format, field, happened);
+  while (!now.is_complete) {
+    for (const Pairing& pairing : now.pairings) {
+      // The later entry always wins.
+      const bool first_wins = index(pairing.first) > index(pairing.second);
+      happened.results[pairing.number] = {{first_wins ? 1.0 : 0.0}, true};
+    }
+    now = schedule(format, field, happened);
+  }
+  EXPECT_EQ(now.places, (std::vector<std::uint32_t>{4, 3, 2, 1, 0}));
+}
+
+TEST(SprtSchedule, EndsWhenTheTestDecidesInTheOrderOfTheScheduleWhateverEndsFirst) {
+  FormatSettings format;
+  format.kind = FormatKind::sprt;
+  format.rounds = 2000;
+  format.sprt = {.elo0 = 0, .elo1 = 100};
+  const std::vector<EntrySpan> field(2);
+  Happened in_order;
+  Happened with_later_ones;
+  std::mt19937_64 random(3);
+  std::size_t matches = 0;
+  for (;; ++matches) {
+    const auto number = static_cast<std::uint32_t>(matches);
+    const bool turned = number % 2 == 1;
+    std::vector<double> scores;
+    for (int game = 0; game < 2; ++game) {
+      const bool one_wins = random() % 10 < 7;
+      scores.push_back(one_wins != turned ? 1 : 0);
+    }
+    in_order.results[number] = {scores, true};
+    if (schedule(format, field, in_order).is_complete) {
+      break;
+    }
+  }
+  with_later_ones = in_order;
+  for (std::uint32_t later = 0; later < 5; ++later) {
+    with_later_ones.results[static_cast<std::uint32_t>(matches) + 1 + later] = {{0, 0}, true};
+  }
+  const Schedule one = schedule(format, field, in_order);
+  const Schedule two = schedule(format, field, with_later_ones);
+  EXPECT_EQ(one.sprt->verdict, ratings::SprtVerdict::h1);
+  EXPECT_EQ(one.pairings.size(), matches + 1);
+  EXPECT_EQ(two.pairings, one.pairings);
+  EXPECT_EQ(two.sprt->pairs, one.sprt->pairs);
+  EXPECT_EQ(two.sprt->log_likelihood_ratio, one.sprt->log_likelihood_ratio);
+}
+
+}  // namespace
+}  // namespace poolhall::tournament
