@@ -130,8 +130,7 @@ void add_serve_command(CLI::App& app, int& exit_code) {
                       "Written when the server listens: addresses and process id as JSON");
   command->add_option("--tls-listen", arguments->tls_listen,
                       "Agents' port with TLS, HOST:PORT; wants certificate and key");
-  command->add_option("--tls-certificate", arguments->tls_certificate,
-                      "PEM file; the page is served by HTTPS with it");
+  command->add_option("--tls-certificate", arguments->tls_certificate, "PEM file of the TLS port");
   command->add_option("--tls-key", arguments->tls_key, "PEM file: the certificate's private key");
   command->add_flag("--log-json", arguments->log_json, "Log one JSON object a line");
   command->add_flag("--plain-beyond-loopback", arguments->plain_beyond_loopback,

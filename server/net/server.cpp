@@ -114,9 +114,7 @@ std::optional<std::string> exposed(const settings::ServerSettings& settings) {
   if (settings.plain_beyond_loopback) {
     return std::nullopt;
   }
-  const bool encrypted_page = !settings.tls.certificate.empty();
-  for (const std::string& address :
-       {settings.listen, encrypted_page ? std::string{} : settings.http}) {
+  for (const std::string& address : {settings.listen, settings.http}) {
     const auto endpoint = parse_endpoint(address);
     if (endpoint && !is_loopback(*endpoint)) {
       return fmt::format(

@@ -21,7 +21,7 @@ struct LogSettings {
   bool json = false;           // one JSON object a line
 };
 
-// With a certificate the page is served by HTTPS, and agents may connect by TLS.
+// With a certificate agents may connect by TLS.
 struct TlsSettings {
   std::string listen;       // agents; empty: no port of its own
   std::string certificate;  // PEM file: the server's first, then its issuers'
