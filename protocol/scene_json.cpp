@@ -105,6 +105,14 @@ SceneFile read_scene(const JsonNode& root) {
   return file;
 }
 
+NoiseParams read_noise_or_preset(const JsonNode& node) {
+  if (node.is_object()) {
+    return read_noise(node);
+  }
+  return node.one_of(noise_preset,
+                     "\"none\", \"low\", \"olympiad\", \"high\" or {a, b, theta, phi, v}");
+}
+
 }  // namespace
 
 std::string_view name(Precision precision) {
@@ -113,6 +121,22 @@ std::string_view name(Precision precision) {
 
 Expected<SceneFile> decode_scene(std::string_view text) {
   return read_document(text, document_bounds, read_scene);
+}
+
+Expected<EvaluationOrder> decode_evaluation(std::string_view text, std::uint32_t most_samples) {
+  return read_document(text, document_bounds, [most_samples](const JsonNode& root) {
+    root.only({"scene", "noise", "samples", "seed"});
+    EvaluationOrder order;
+    order.scene = read_scene(root.at("scene"));
+    order.noise = read_noise_or_preset(root.at("noise"));
+    if (const auto samples = root.find("samples")) {
+      order.samples = samples->integer<std::uint32_t>(1, most_samples);
+    }
+    if (const auto seed = root.find("seed")) {
+      order.seed = seed->integer<std::uint64_t>(0);
+    }
+    return order;
+  });
 }
 
 Error scene_error(const physics::Error& error) {

@@ -34,6 +34,17 @@ struct SceneFile {
 // physics::check_scene's answer.
 [[nodiscard]] Expected<SceneFile> decode_scene(std::string_view text);
 
+// What the workbench asks: a scene with a shot, played `samples` times with noise.
+struct EvaluationOrder {
+  SceneFile scene;
+  NoiseParams noise;
+  std::uint32_t samples = 200;
+  std::uint64_t seed = 0;
+};
+// {"scene": {...}, "noise": "olympiad" | {a, b, theta, phi, v}, "samples"?, "seed"?}
+[[nodiscard]] Expected<EvaluationOrder> decode_evaluation(std::string_view text,
+                                                          std::uint32_t most_samples);
+
 // The scene in SI. Its numbers are the file's doubles in every precision, so that two precisions
 // simulate the same scene; only the shot's directions are computed in the precision asked for.
 template <class Real = double>

@@ -12,6 +12,7 @@
 #include "protocol/events_json.hpp"
 #include "protocol/state_json.hpp"
 #include "server/app/commands.hpp"
+#include "server/app/game_sheet.hpp"
 #include "server/app/replay_text.hpp"
 #include "server/app/table_svg.hpp"
 #include "server/match/play_shot.hpp"
@@ -102,19 +103,45 @@ Outcome<StoredShot> stored_shot(const storage::GameRecord& game, const storage::
   return shot;
 }
 
-Outcome<void> draw(const StoredGame& game, const storage::TurnRecord& turn,
-                   const std::string& file) {
-  if (!turn.shot)
-    return tl::unexpected(fmt::format("turn {} has no shot to draw", turn.number));
-  const auto shot = stored_shot(game.record, turn);
-  if (!shot)
-    return tl::unexpected(shot.error());
+Outcome<void> write_file(const std::string& file, const std::string& text) {
   std::ofstream out(file);
-  out << table_svg(shot->scene, shot->simulation, shot->simulation.duration);
+  out << text;
   out.close();
   if (!out)
     return tl::unexpected(file + ": cannot be written");
   return {};
+}
+
+Outcome<SheetShot> drawn(const StoredGame& game, const storage::TurnRecord& turn) {
+  const auto shot = stored_shot(game.record, turn);
+  if (!shot)
+    return tl::unexpected(shot.error());
+  const auto size = picture_size(shot->scene.table);
+  return SheetShot{fmt::format("{} {}", turn.number, game.players[index(turn.seat)]),
+                   table_svg(shot->scene, shot->simulation, shot->simulation.duration), size.x,
+                   size.y};
+}
+
+Outcome<void> draw(const StoredGame& game, const storage::TurnRecord& turn,
+                   const std::string& file) {
+  if (!turn.shot)
+    return tl::unexpected(fmt::format("turn {} has no shot to draw", turn.number));
+  const auto shot = drawn(game, turn);
+  return shot ? write_file(file, shot->picture) : tl::unexpected(shot.error());
+}
+
+Outcome<void> draw_sheet(const StoredGame& game, const std::string& title,
+                         const std::string& file) {
+  std::vector<SheetShot> shots;
+  for (const storage::TurnRecord& turn : game.turns) {
+    if (!turn.shot)
+      continue;
+    auto shot = drawn(game, turn);
+    if (!shot)
+      return tl::unexpected(shot.error());
+    shots.push_back(std::move(*shot));
+  }
+  return write_file(file, game_sheet(title, shots));
 }
 
 Outcome<void> show_turn(const StoredGame& game, const storage::TurnRecord& turn,
@@ -132,14 +159,18 @@ Outcome<void> show_turn(const StoredGame& game, const storage::TurnRecord& turn,
 }
 
 Outcome<void> replay(const ReplayArguments& arguments) {
-  if (arguments.svg && !arguments.turn)
-    return tl::unexpected(std::string("--svg draws one shot: --shot N is expected with it"));
   const auto game = read_game(arguments);
   if (!game)
     return tl::unexpected(game.error());
-  fmt::print("game {}: {} against {}, {} on {}, noise {}\n", arguments.game, game->players[0],
-             game->players[1], rules::name(game->record.terms.rules), game->record.terms.table,
-             game->record.terms.noise);
+  const std::string title =
+      fmt::format("game {}: {} against {}, {} on {}, noise {}", arguments.game, game->players[0],
+                  game->players[1], rules::name(game->record.terms.rules),
+                  game->record.terms.table, game->record.terms.noise);
+  fmt::print("{}\n", title);
+  if (arguments.svg && !arguments.turn) {
+    if (auto sheet = draw_sheet(*game, title, *arguments.svg); !sheet)
+      return sheet;
+  }
   bool is_found = !arguments.turn;
   for (const storage::TurnRecord& turn : game->turns) {
     if (arguments.turn && turn.number != *arguments.turn)
@@ -162,7 +193,7 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   command->add_option("game", arguments->game, "number of the game")->required();
   command->add_option("--shot", arguments->turn, "only the turn with this number");
   command->add_option("--db", arguments->database, "database file")->capture_default_str();
-  command->add_option("--svg", arguments->svg, "write a picture of the shot to this file");
+  command->add_option("--svg", arguments->svg, "write a picture of the shot, or of all shots, to this file");
   command->add_flag("--ascii", arguments->ascii, "show the table after each turn");
   command->callback([arguments, &exit_code] {
     const auto done = replay(*arguments);

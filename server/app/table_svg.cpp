@@ -9,6 +9,7 @@
 
 #include "physics/coefficients.hpp"
 #include "physics/motion.hpp"
+#include "physics/table_geometry.hpp"
 
 namespace poolhall::app {
 namespace {
@@ -115,7 +116,35 @@ struct PocketPainter {
   }
 };
 
-std::string table_picture(const physics::Table& table) {
+std::string line(const Vec2<double>& from, const Vec2<double>& to) {
+  return fmt::format(R"(<path d="M{:.6f} {:.6f}L{:.6f} {:.6f}"/>)"
+                     "\n",
+                     from.x, from.y, to.x, to.y);
+}
+
+// What a ball can touch: noses, the arcs at their ends, facings.
+std::string cushion_lines(const physics::TableGeometry<double>& geometry) {
+  std::string svg;
+  for (const auto& rail : geometry.rails) {
+    const bool is_x = rail.axis == physics::Axis::x;
+    const Vec2<double> from{is_x ? rail.nose_line : rail.begin, is_x ? rail.begin : rail.nose_line};
+    const Vec2<double> to{is_x ? rail.nose_line : rail.end, is_x ? rail.end : rail.nose_line};
+    svg += line(from, to);
+  }
+  for (const auto& arc : geometry.arcs) {
+    const Vec2<double> from = arc.centre + arc.radius * arc.first;
+    const Vec2<double> to = arc.centre + arc.radius * arc.last;
+    svg += fmt::format(R"(<path d="M{:.6f} {:.6f}A{} {} 0 0 1 {:.6f} {:.6f}"/>)"
+                       "\n",
+                       from.x, from.y, arc.radius, arc.radius, to.x, to.y);
+  }
+  for (const auto& facing : geometry.facings) {
+    svg += line(facing.from, facing.to);
+  }
+  return svg;
+}
+
+std::string table_picture(const physics::Table& table, double radius) {
   std::string svg = fmt::format(
       R"(<rect x="{0}" y="{0}" width="{1}" height="{2}" rx="0.05" fill="#5a3a1c"/>)"
       "\n"
@@ -129,7 +158,8 @@ std::string table_picture(const physics::Table& table) {
       -margin * 0.8, table.width + 1.6 * margin, table.length + 1.6 * margin, table.width,
       table.length, table.head_string, table.foot_spot_x, table.foot_spot_y);
   std::visit(PocketPainter{table, svg}, table.pockets);
-  return svg;
+  return svg + "<g fill=\"none\" stroke=\"#123f2c\" stroke-width=\"0.006\">\n" +
+         cushion_lines(physics::table_geometry<double>(table, radius)) + "</g>\n";
 }
 
 std::string ball_picture(const physics::Ball<double>& ball, double radius,
@@ -152,6 +182,10 @@ std::string ball_number(const physics::Ball<double>& ball, double length, double
 
 }  // namespace
 
+physics::Vec2<double> picture_size(const physics::Table& table) {
+  return {(table.width + 2 * margin) * 400, (table.length + 2 * margin) * 400};
+}
+
 std::string table_svg(const physics::Scene<double>& scene,
                       const physics::Simulation<double>& simulation, double until) {
   const double radius = scene.materials.ball_radius;
@@ -162,9 +196,9 @@ std::string table_svg(const physics::Scene<double>& scene,
       "\n"
       R"svg(<g transform="translate(0 {5}) scale(1 -1)">)svg"
       "\n",
-      -margin, scene.table.width + 2 * margin, length + 2 * margin,
-      (scene.table.width + 2 * margin) * 400, (length + 2 * margin) * 400, length);
-  svg += table_picture(scene.table);
+      -margin, scene.table.width + 2 * margin, length + 2 * margin, picture_size(scene.table).x,
+      picture_size(scene.table).y, length);
+  svg += table_picture(scene.table, radius);
   for (const physics::Ball<double>& ball : scene.balls) {
     svg += ball_picture(ball, radius, "0.3");
   }

@@ -14,4 +14,7 @@ namespace poolhall::app {
 [[nodiscard]] std::string table_svg(const physics::Scene<double>& scene,
                                     const physics::Simulation<double>& simulation, double until);
 
+// Width and height of that picture, px.
+[[nodiscard]] physics::Vec2<double> picture_size(const physics::Table& table);
+
 }  // namespace poolhall::app

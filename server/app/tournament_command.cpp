@@ -71,7 +71,7 @@ settings::Expected<settings::ServerSettings> server_settings(
   } else if (arguments.config.empty()) {
     settings.listen = "127.0.0.1:0";
   }
-  settings.http = arguments.http;
+  settings.http = arguments.http.empty() ? "127.0.0.1:8080" : arguments.http;
   settings.database =
       arguments.database.empty() ? new_database(tournament.name) : arguments.database;
   // Every entry may be a process of this machine.
@@ -112,7 +112,7 @@ void announce(const settings::TournamentSettings& tournament, const net::Server&
   fmt::print("Agents connect to {}. Games are stored in {}.\n",
              net::to_string(server.agents_endpoint()), database);
   if (const auto http = server.http_endpoint()) {
-    fmt::print("Page: http://{}/\n", net::to_string(*http));
+    fmt::print("Watch it at http://{}/ until it ends.\n", net::to_string(*http));
   }
   std::fflush(stdout);
 }
@@ -149,19 +149,18 @@ int report(const TournamentOutcome& outcome, const std::string& database, int se
         database, database);
     return incomplete;
   }
-  fmt::print("Games are stored in {}.\n", database);
+  fmt::print("Games are stored in {0}.\nTo look at them again: poolhall serve --db {0}\n", database);
   return server_exit == 0 ? done : failed;
 }
 
-int play(const settings::TournamentFile& file, const settings::ServerSettings& settings) {
+int play(const settings::TournamentFile& file, const settings::ServerSettings& settings,
+         net::PagePort page_port) {
   net::ServerOptions options;
   options.settings = settings;
+  options.page_port = page_port;
   net::Server server(options);
   if (auto started = server.start(); !started) {
     return fail(failed, started.error());
-  }
-  if (!settings.http.empty() && !server.http_endpoint()) {
-    return fail(failed, "--http: this server has no page");
   }
   announce(file.settings, server, settings.database);
 
@@ -204,7 +203,8 @@ int run_tournament(const RunArguments& arguments) {
   std::signal(SIGPIPE, SIG_IGN);  // whoever read the output may go, games do not end for that
   spdlog::set_level(arguments.verbose ? spdlog::level::from_str(settings->log.level)
                                       : spdlog::level::warn);
-  return play(*file, *settings);
+  return play(*file, *settings,
+              arguments.http.empty() ? net::PagePort::or_a_free_one : net::PagePort::as_given);
 }
 
 void add_run(CLI::App& tournament, int& exit_code) {
@@ -214,7 +214,8 @@ void add_run(CLI::App& tournament, int& exit_code) {
   run->add_option("FILE", arguments->file, "The tournament file (config/README.md)")->required();
   run->add_option("--db", arguments->database,
                   "The database; an unfinished tournament in it goes on. Default: a new NAME.db");
-  run->add_option("--http", arguments->http, "Serve the page at HOST:PORT meanwhile");
+  run->add_option("--http", arguments->http, "Serve the page at HOST:PORT meanwhile. Default: port 8080 of 127.0.0.1, or a "
+                  "free one");
   run->add_option("--listen", arguments->listen,
                   "Where agents connect, HOST:PORT. Default: a free port of 127.0.0.1");
   run->add_option("--config", arguments->config, "The server's settings file");

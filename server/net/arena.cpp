@@ -298,6 +298,9 @@ void Arena::launch(std::shared_ptr<LiveGame> game) {
     game->suspend();
   }
   game->begin();
+  if (on_games_changed_) {
+    on_games_changed_();
+  }
 }
 
 void Arena::game_over(LiveGame& game) {
@@ -317,6 +320,9 @@ void Arena::game_over(LiveGame& game) {
   untold_.game_over(record);
   matches_.game_over(game);
   games_.erase(number(record.id));  // whoever called holds it until the call is done
+  if (on_games_changed_) {
+    on_games_changed_();
+  }
 }
 
 Arena::CalledOff Arena::call_off(protocol::GameId game) {

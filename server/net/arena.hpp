@@ -83,6 +83,15 @@ class Arena final : public Lobby {
   [[nodiscard]] MatchHost& host() { return tournaments_; }
   [[nodiscard]] ArenaFigures figures() const;
   void for_each_game(const std::function<void(const LiveGame&)>& visit) const;
+  [[nodiscard]] const LiveGame* find_game(protocol::GameId game) const { return live_game(game); }
+  [[nodiscard]] const WireTime& time() const { return time_; }
+  // Each replaces the callback before it: a turn is stored; a game has begun or ended.
+  void on_turn(std::function<void(const LiveGame&, const storage::TurnRecord&)> callback) {
+    services_.on_turn = std::move(callback);
+  }
+  void on_games_changed(std::function<void()> callback) {
+    on_games_changed_ = std::move(callback);
+  }
 
   // Lobby.
   [[nodiscard]] const protocol::Limits& limits() const override { return settings_.limits; }
@@ -154,6 +163,7 @@ class Arena final : public Lobby {
   std::uint64_t next_connection_ = 1;
   std::size_t turned_away_ = 0;  // that are still being told
   std::uint64_t games_over_ = 0;
+  std::function<void()> on_games_changed_;
   bool storage_in_trouble_ = false;
   Stage stage_ = Stage::running;
   std::function<void()> after_stop_;

@@ -26,13 +26,16 @@ web::Page health_page(const ArenaFigures& figures) {
   return {200, "application/json", "{\"status\":\"ok\"}"};
 }
 
-std::string metrics_of(const ArenaFigures& figures, const storage::WriterStatistics& writing) {
+std::string metrics_of(const ArenaFigures& figures, const storage::WriterStatistics& writing,
+                       std::size_t spectators) {
   std::string out;
   metric(out, "connections", "gauge", "Agents' connections.", figures.connections);
   metric(out, "agents_here", "gauge", "Agents that are logged in.", figures.agents_here);
   metric(out, "agents_known", "gauge", "Agents in the database.", figures.agents_known);
   metric(out, "games", "gauge", "Games that go on.", figures.games);
   metric(out, "matches", "gauge", "Matches that go on.", figures.matches);
+  metric(out, "spectators", "gauge", "People's browsers that watch a game or the lobby.",
+         spectators);
   metric(out, "house_bots", "gauge", "Processes of house bots.", figures.house_bots);
   metric(out, "games_over_total", "counter", "Games that ended.", figures.games_over);
   metric(out, "storage_in_trouble", "gauge", "1 while the database takes nothing.",
@@ -45,18 +48,21 @@ std::string metrics_of(const ArenaFigures& figures, const storage::WriterStatist
   return out;
 }
 
-std::string live_json(const Arena& arena) {
+std::string live_json(const Arena& arena, States states) {
   protocol::JsonWriter out;
   out.begin_object().key("games").begin_array();
-  arena.for_each_game([&out](const LiveGame& live) {
+  arena.for_each_game([&](const LiveGame& live) {
     const match::Game& game = live.game();
     out.begin_object().key("game").integer(protocol::number(game.record().id));
     out.key("agents").begin_array();
     out.string(live.card().names[0]).string(live.card().names[1]).end_array();
-    out.key("turn").integer(game.state().turn);
-    out.key("to_move").integer(rules::index(game.state().to_move));
-    out.key("kind").string(rules::name(game.state().kind));
-    out.key("state").raw(game.state_json()).end_object();
+    if (states == States::included) {
+      out.key("turn").integer(game.state().turn);
+      out.key("to_move").integer(rules::index(game.state().to_move));
+      out.key("kind").string(rules::name(game.state().kind));
+      out.key("state").raw(game.state_json());
+    }
+    out.end_object();
   });
   out.end_array().end_object();
   return std::move(out).text();

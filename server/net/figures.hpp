@@ -14,8 +14,10 @@ namespace poolhall::net {
 [[nodiscard]] web::Page health_page(const ArenaFigures& figures);
 // Prometheus' text format.
 [[nodiscard]] std::string metrics_of(const ArenaFigures& figures,
-                                     const storage::WriterStatistics& writing);
+                                     const storage::WriterStatistics& writing,
+                                     std::size_t spectators);
 // The games that go on, as JSON.
-[[nodiscard]] std::string live_json(const Arena& arena);
+enum class States : std::uint8_t { included, left_out };  // where the balls lie, whose turn it is
+[[nodiscard]] std::string live_json(const Arena& arena, States states);
 
 }  // namespace poolhall::net

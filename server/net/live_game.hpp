@@ -40,6 +40,8 @@ struct GameServices {
   std::function<void(LiveGame&)> on_over;
   // Nothing is in flight any more; only asked for once the server stops.
   std::function<void()> on_quiet;
+  // A turn is stored and told to its players; for those who only watch.
+  std::function<void(const LiveGame&, const storage::TurnRecord&)> on_turn{};
 };
 
 // The first turn waits for the agents, but not for ever.

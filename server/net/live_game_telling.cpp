@@ -37,6 +37,9 @@ void LiveGame::tell(const match::Store& what) {
       break;
   }
   asker_ = {};
+  if (services_.on_turn) {
+    services_.on_turn(*this, what.turn);
+  }
 }
 
 void LiveGame::tell_shot(const storage::TurnRecord& row) {

@@ -17,6 +17,7 @@
 
 #include "server/net/admin_calls.hpp"
 #include "server/net/arena.hpp"
+#include "server/net/broadcast.hpp"
 #include "server/net/figures.hpp"
 #include "server/net/listener.hpp"
 #include "server/net/socket_options.hpp"
@@ -159,6 +160,8 @@ class Server::Impl {
   tl::expected<void, std::string> listen();
   tl::expected<void, std::string> listen_tls();
   tl::expected<void, std::string> listen_http();
+  [[nodiscard]] web::Sources page_sources();
+  [[nodiscard]] std::function<void(web::Then)> from_games(std::function<web::Page()> make);
   tl::expected<void, std::string> say_ready();
   void watch_signals();
   void begin_stop();
@@ -178,6 +181,8 @@ class Server::Impl {
   std::unique_ptr<Listener> tls_listener_;
   std::unique_ptr<asio::signal_set> signals_;
   std::unique_ptr<web::HttpServer> http_;
+  std::unique_ptr<Archive> web_archive_;  // its readers run on the web's threads
+  std::unique_ptr<Broadcast> broadcast_;
   Endpoint agents_;
   std::optional<Endpoint> tls_agents_;
   std::optional<Endpoint> page_;
@@ -336,10 +341,32 @@ tl::expected<void, std::string> Server::Impl::listen_http() {
   if (!endpoint) {
     return tl::unexpected(endpoint.error());
   }
+  web::HttpServer::Options options{page_sources(), {}};
+  options.publisher.watch = [this](web::Topic topic, web::Ticket ticket) {
+    asio::post(io_, [this, topic, ticket] { broadcast_->watch(topic, ticket); });
+  };
+  options.publisher.unwatch = [this](web::Topic topic) {
+    asio::post(io_, [this, topic] { broadcast_->unwatch(topic); });
+  };
+  http_ = std::make_unique<web::HttpServer>(std::move(options));
+  web_archive_ =
+      std::make_unique<Archive>(options_.settings.database, http_->io(), http_->workers());
+  broadcast_ = std::make_unique<Broadcast>(io_, *arena_, http_->feed());
+  auto bound = http_->open(endpoint->host, endpoint->port);
+  if (!bound && options_.page_port == PagePort::or_a_free_one) {
+    bound = http_->open(endpoint->host, 0);
+  }
+  if (!bound) {
+    return bound;
+  }
+  page_ = Endpoint{endpoint->host, http_->port()};
+  return {};
+}
+
+web::Sources Server::Impl::page_sources() {
   web::Sources sources;
-  sources.read = [this](std::function<web::Page(storage::Reader&)> work,
-                        std::function<void(web::Page)> then) {
-    archive_->read(
+  sources.read = [this](std::function<web::Page(storage::Reader&)> work, web::Then then) {
+    web_archive_->read(
         [work = std::move(work)](storage::Reader& reader) -> storage::Expected<web::Page> {
           return work(reader);
         },
@@ -347,18 +374,35 @@ tl::expected<void, std::string> Server::Impl::listen_http() {
           then(page ? std::move(*page) : web::refusal(503, "database", page.error().reason));
         });
   };
-  sources.health = [this] { return health_page(arena_->figures()); };
-  sources.metrics = [this] { return metrics_of(arena_->figures(), writer_->statistics()); };
-  sources.live = [this] { return live_json(*arena_); };
-  sources.admin = [this](const web::AdminRequest& request, const web::Then& then) {
-    admin_->answer(request, then);
+  sources.health = from_games([this] { return health_page(arena_->figures()); });
+  sources.metrics = from_games([this] {
+    return web::Page{200, "text/plain; version=0.0.4",
+                     metrics_of(arena_->figures(), writer_->statistics(), http_->spectators())};
+  });
+  sources.live = from_games([this] {
+    const bool delayed = options_.settings.spectator_delay.count() > 0;
+    return web::Page{200, "application/json",
+                     live_json(*arena_, delayed ? States::left_out : States::included)};
+  });
+  sources.admin = [this](web::AdminRequest request, web::Then then) {
+    asio::post(io_, [this, request = std::move(request), then = std::move(then)] {
+      admin_->answer(request, [this, then](web::Page page) {
+        asio::post(http_->io(), [then, page = std::move(page)]() mutable { then(std::move(page)); });
+      });
+    });
   };
-  http_ = std::make_unique<web::HttpServer>(io_, std::move(sources));
-  if (auto bound = http_->open(endpoint->host, endpoint->port); !bound) {
-    return bound;
-  }
-  page_ = Endpoint{endpoint->host, http_->port()};
-  return {};
+  sources.delay = options_.settings.spectator_delay;
+  sources.simulations_per_second = options_.settings.simulations_per_second;
+  return sources;
+}
+
+// A page made on the thread on which the games are, and handed back on the web's.
+std::function<void(web::Then)> Server::Impl::from_games(std::function<web::Page()> make) {
+  return [this, make = std::move(make)](web::Then then) {
+    asio::post(io_, [this, make, then = std::move(then)] {
+      asio::post(http_->io(), [then, page = make()]() mutable { then(std::move(page)); });
+    });
+  };
 }
 
 void Server::Impl::watch_signals() {
@@ -378,9 +422,6 @@ void Server::Impl::begin_stop() {
   if (tls_listener_) {
     tls_listener_->stop();
   }
-  if (http_) {
-    http_->stop();
-  }
   arena_->stop([this] { io_.stop(); });
 }
 
@@ -395,6 +436,9 @@ int Server::Impl::run() {
 void Server::Impl::shut() {
   if (std::exchange(shut_, true)) {
     return;
+  }
+  if (http_) {
+    http_->stop();
   }
   workers_.join();
   if (writer_) {

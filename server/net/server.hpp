@@ -38,10 +38,14 @@ struct Endpoint {
 // Whether only this machine can connect to it.
 [[nodiscard]] bool is_loopback(const Endpoint& endpoint);
 
+// What to do when the page's port is taken.
+enum class PagePort : std::uint8_t { as_given, or_a_free_one };
+
 struct ServerOptions {
   settings::ServerSettings settings;  // port 0 picks a free one; an empty `http` is no page
   std::optional<std::filesystem::path> ready_file{};
   Signals signals = Signals::handled;
+  PagePort page_port = PagePort::as_given;
   StoredTournaments stored_tournaments = StoredTournaments::left_alone;
   std::filesystem::path program = "/proc/self/exe";  // that plays house bots: `program bot NAME`
   std::vector<std::string> house_bots{"random", "greedy"};  // that may be challenged

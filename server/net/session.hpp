@@ -17,7 +17,7 @@
 #include "server/net/agent_book.hpp"
 #include "server/net/connection.hpp"
 #include "server/net/lag_meter.hpp"
-#include "server/net/token_bucket.hpp"
+#include "server/web/token_bucket.hpp"
 
 namespace poolhall::net {
 
@@ -119,7 +119,7 @@ class Session : public Connection::Handler, public std::enable_shared_from_this<
   std::uint64_t seq_ = 0;
   std::uint32_t bad_lines_ = 0;
   std::uint32_t refused_for_rate_ = 0;  // in a row
-  TokenBucket bucket_;
+  web::TokenBucket bucket_;
   LagMeter lag_;
 };
 

@@ -105,6 +105,12 @@ Keys<ServerSettings> server_key_table() {
   keys.add(
       "max_house_bots", WholeNumber{0, 1024}, [](auto& s) -> auto& { return s.max_house_bots; });
   keys.add(
+      "simulations_per_second", WholeNumber{0, 1000},
+      [](auto& s) -> auto& { return s.simulations_per_second; });
+  keys.add(
+      "spectator_delay_seconds", Seconds{0, 3600},
+      [](auto& s) -> auto& { return s.spectator_delay; });
+  keys.add(
       "plain_beyond_loopback", Flag{}, [](auto& s) -> auto& { return s.plain_beyond_loopback; });
   keys.add(
       "admin_token_file", OrNone<Line>{{"the name of a file"}},

@@ -5,6 +5,7 @@
 //   if (!settings) die(text(settings.error()));
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -36,6 +37,8 @@ struct ServerSettings {
   std::string registration = "open";      // open: any agent may register; closed
   std::uint32_t worker_threads = 0;       // for physics; 0: one a core
   std::uint32_t max_house_bots = 16;      // processes
+  std::uint32_t simulations_per_second = 10;  // of the page's workbench, for each address
+  std::chrono::milliseconds spectator_delay{0};
   bool plain_beyond_loopback = false;     // unencrypted, for other machines
   std::string admin_token_file;           // made if it does not exist; empty: no admin calls
   TlsSettings tls;

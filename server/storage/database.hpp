@@ -68,6 +68,8 @@ class Reader {
   [[nodiscard]] virtual Expected<std::vector<FinalStanding>> final_standings(
       std::string_view tournament) = 0;
   [[nodiscard]] virtual Expected<std::vector<UnfinishedGame>> unfinished_games() = 0;
+  // Games that are over and not void, in the order in which they ended.
+  [[nodiscard]] virtual Expected<std::vector<ResultRecord>> results() = 0;
   // Every game's id, ascending.
   [[nodiscard]] virtual Expected<std::vector<GameId>> game_ids() = 0;
 

@@ -148,6 +148,17 @@ struct GameRecord {
   friend bool operator==(const GameRecord&, const GameRecord&) = default;
 };
 
+// A scored game in few words, for ratings and lists.
+struct ResultRecord {
+  GameId game{};
+  MatchId match{};
+  std::array<AgentId, 2> agents{};  // by seat
+  rules::RuleSet rules = rules::RuleSet::eight_ball;
+  rules::Seat breaker = rules::Seat::first;
+  rules::GameResult result;
+  UnixMicros finished{};
+};
+
 // What a turn came to. Every turn of a game is one row, the last one too.
 enum class TurnAction : std::uint8_t {
   shot,

@@ -49,6 +49,7 @@ class SqliteDatabase final : public Database {
                                                              std::size_t most) override;
   Expected<std::vector<FinalStanding>> final_standings(std::string_view tournament) override;
   Expected<std::vector<UnfinishedGame>> unfinished_games() override;
+  Expected<std::vector<ResultRecord>> results() override;
   Expected<std::vector<GameId>> game_ids() override;
   Expected<std::optional<TurnRecord>> turn(GameId game, std::uint32_t number) override;
   Expected<void> each_turn(GameId game,
@@ -274,6 +275,13 @@ Expected<std::vector<UnfinishedGame>> SqliteDatabase::unfinished_games() {
     unfinished.push_back(std::move(item));
   }
   return unfinished;
+}
+
+Expected<std::vector<ResultRecord>> SqliteDatabase::results() {
+  return all(select(result_columns,
+                    "games WHERE over=1 AND reason<>'void' AND finished IS NOT NULL "
+                    "ORDER BY finished, id"),
+             &Columns::result_row);
 }
 
 Expected<std::vector<GameId>> SqliteDatabase::game_ids() {

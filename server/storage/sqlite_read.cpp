@@ -219,6 +219,25 @@ GameRecord Columns::game() {
   return game;
 }
 
+ResultRecord Columns::result_row() {
+  ResultRecord row;
+  row.game = GameId{integer()};
+  row.match = MatchId{integer()};
+  row.agents[0] = AgentId{integer()};
+  row.agents[1] = AgentId{integer()};
+  const std::optional<rules::RuleSet> rules = rules::rule_set(text());
+  if (!rules)
+    fail("the name of a rule set");
+  row.rules = *rules;
+  row.breaker = seat();
+  const std::optional<rules::GameResult> ended = result();
+  if (!ended)
+    fail("a result");
+  row.result = *ended;
+  row.finished = date();
+  return row;
+}
+
 protocol::ShotParams Columns::stroke() {
   protocol::ShotParams stroke;
   for (double* value : {&stroke.a, &stroke.b, &stroke.theta, &stroke.phi, &stroke.v})

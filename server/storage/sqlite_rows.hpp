@@ -39,6 +39,8 @@ inline constexpr std::string_view game_columns =
     "lag_per_turn_us,lag_per_game_us,breaker,rack_seed,noise_key,noise_a,noise_b,noise_theta,"
     "noise_phi,noise_v,commitment,initial_state,physics_version,rules_version,created,over,winner,"
     "reason,turns,head,first_acknowledged,second_acknowledged,finished,seal";
+inline constexpr std::string_view result_columns =
+    "id,match,first_agent,second_agent,rules,breaker,winner,reason,finished";
 inline constexpr std::string_view turn_columns =
     "game,number,action,seat,request,shot_index,intended_a,intended_b,intended_theta,intended_phi,"
     "intended_v,executed_a,executed_b,executed_theta,executed_phi,executed_v,moved,cue_ball_x,"
@@ -111,6 +113,7 @@ class Columns {
   [[nodiscard]] FinalStanding final_standing();
   [[nodiscard]] GameRecord game();
   [[nodiscard]] TurnRecord turn();
+  [[nodiscard]] ResultRecord result_row();
 
  private:
   [[nodiscard]] SQLite::Column take();

@@ -1,41 +1,38 @@
-// HTTP for people and their tools: /healthz, /metrics, /api/live from what the server knows, the
-// rest of /api from the database. GET and HEAD only; nothing here changes anything.
+// HTTP and WebSocket for people and their tools, on a thread of its own that gives way to games:
+// thousands who watch cost those who play next to nothing.
 //
-//   HttpServer http{io, sources};
+//   HttpServer http{{.sources = sources, .publisher = publisher}};
 //   if (auto bound = http.open(address, port); !bound) die(bound.error());
 //   http.start();
+//   http.feed().publish(game_topic(17), message);   // from any thread
+//   http.stop();                                    // joins the thread
 #pragma once
 
+#include <atomic>
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
-#include <boost/beast/http/message.hpp>
-#include <boost/beast/http/string_body.hpp>
+#include <boost/asio/thread_pool.hpp>
 #include <cstdint>
-#include <functional>
 #include <string>
+#include <thread>
 
 #include <tl/expected.hpp>
 
-#include "server/web/admin.hpp"
-#include "server/web/pages.hpp"
+#include "server/web/live_feed.hpp"
+#include "server/web/site.hpp"
 
 namespace poolhall::web {
 
-// What pages are made of. All functions are called, and call back, on the network thread.
-struct Sources {
-  // Runs `work` with a reader of the database elsewhere, then `then` here.
-  std::function<void(std::function<Page(storage::Reader&)> work, std::function<void(Page)> then)>
-      read;
-  std::function<Page()> health;
-  std::function<std::string()> metrics;  // Prometheus' text format
-  std::function<std::string()> live;     // JSON
-  std::function<void(const AdminRequest& request, const Then& then)> admin;
-};
-
 class HttpServer {
  public:
-  HttpServer(boost::asio::io_context& io, Sources sources);
+  struct Options {
+    Sources sources;
+    LiveFeed::Publisher publisher;
+  };
+
+  explicit HttpServer(Options options);
+  ~HttpServer();
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
@@ -44,22 +41,30 @@ class HttpServer {
   void stop();
   [[nodiscard]] std::uint16_t port() const;
 
- private:
-  using Request = boost::beast::http::request<boost::beast::http::string_body>;
+  // The web thread's, and threads for what takes longer.
+  [[nodiscard]] boost::asio::io_context& io() { return io_; }
+  [[nodiscard]] boost::asio::thread_pool& workers() { return workers_; }
+  [[nodiscard]] LiveFeed& feed() { return feed_; }
+  [[nodiscard]] std::size_t spectators() const { return spectators_; }
 
+ private:
   boost::asio::awaitable<void> accept_loop();
-  boost::asio::awaitable<void> serve(boost::asio::ip::tcp::socket socket);
-  boost::asio::awaitable<Page> page_for(const Request& request);
-  boost::asio::awaitable<Page> read(std::string path);
-  boost::asio::awaitable<Page> admin(AdminRequest request);
-  [[nodiscard]] static bool is_own_origin(std::string_view origin, std::string_view host);
+  template <class Stream>
+  boost::asio::awaitable<void> serve(Stream stream, std::string address);
+  template <class Stream>
+  boost::asio::awaitable<void> spectate(Stream stream, Request request);
+  boost::asio::awaitable<Page> page_for(const Request& request, std::string address);
   [[nodiscard]] bool is_own_host(std::string_view host) const;
 
-  boost::asio::io_context& io_;
-  Sources sources_;
+  boost::asio::io_context io_{1};
+  boost::asio::thread_pool workers_;
+  Site site_;
+  LiveFeed feed_;
   boost::asio::ip::tcp::acceptor acceptor_;
   std::string host_;
   std::size_t open_ = 0;
+  std::atomic<std::size_t> spectators_ = 0;
+  std::thread thread_;
 };
 
 }  // namespace poolhall::web

@@ -1,26 +1,24 @@
 // The read-only JSON API as a pure function of the database: a path in, a page out. Noise keys are
 // in no page before their match is over.
 //
-//   Page page = answer(*reader, "/api/games/17");
+//   Page page = answer(*reader, "/api/games/17", delay);
 //   page.status; page.body;
 #pragma once
 
+#include <chrono>
 #include <string>
 #include <string_view>
 
 #include "server/storage/database.hpp"
+#include "server/web/page.hpp"
 
 namespace poolhall::web {
 
-struct Page {
-  unsigned status = 200;
-  std::string type = "application/json";
-  std::string body;
-};
+// What happened less than `delay` ago is not told.
+[[nodiscard]] Page answer(storage::Reader& reader, std::string_view path,
+                          std::chrono::milliseconds delay);
 
-[[nodiscard]] Page answer(storage::Reader& reader, std::string_view path);
-
-// A refusal as JSON: {"error": {"code": "not_found", "reason": "..."}}.
-[[nodiscard]] Page refusal(unsigned status, std::string_view code, std::string_view reason);
+// A stored turn as /api/games/N/shots/M and spectators have it.
+[[nodiscard]] std::string turn_text(const storage::TurnRecord& turn);
 
 }  // namespace poolhall::web

@@ -23,9 +23,22 @@ constexpr std::array table{
           .type = "text/plain"},
     Route{"GET", "/api/openapi.json", "This document"},
     Route{"GET", "/api/live", "The games that go on"},
-    Route{"GET", "/api/agents", "Who is known"},
+    Route{"GET", "/api/agents", "Who is known, and how their ratings went"},
+    Route{"GET", "/api/agents/{agent}", "An agent: its ratings over time, its last games"},
+    Route{"GET", "/api/presets", "Tables, physics and noise levels by name, with their numbers"},
+    Route{"POST", "/api/simulate", "The event log of a scene, as poolhall simulate prints it",
+          Route::For::everybody, "A scene (protocol/schema/scene.schema.json)"},
+    Route{"POST", "/api/evaluate", "Where the balls of a scene end under noise",
+          Route::For::everybody,
+          "{\"scene\": ..., \"noise\": a level's name or its numbers, \"samples\"?, \"seed\"?}"},
     Route{"GET", "/api/tournaments", "All tournaments"},
     Route{"GET", "/api/tournaments/{tournament}", "A tournament: entries, matches, results"},
+    Route{.method = "GET",
+          .path = "/api/tournaments.txt",
+          .summary = "All tournaments, as a text for a terminal",
+          .type = "text/plain"},
+    Route{"GET", "/api/tournaments/{tournament}/{table}",
+          "standings, crosstable (each also with .csv and .txt), trf, status.txt"},
     Route{"GET", "/api/games/{game}",
           "A game: terms, turns, result; its key once its match is over"},
     Route{"GET", "/api/games/{game}/shots/{turn}",
@@ -80,7 +93,7 @@ void write_parameters(JsonWriter& out, std::string_view path) {
     const std::string_view name = segment.substr(1, segment.size() - 2);
     out.begin_object().key("name").string(name).key("in").string("path");
     out.key("required").boolean(true).key("schema").begin_object();
-    out.key("type").string(name == "tournament" ? "string" : "integer").end_object().end_object();
+    out.key("type").string(name == "tournament" || name == "agent" || name == "table" ? "string" : "integer").end_object().end_object();
   }
   out.end_array();
 }

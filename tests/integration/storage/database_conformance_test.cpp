@@ -184,6 +184,32 @@ TEST_P(DatabaseConformance, lists_a_finished_game_for_each_agent_until_it_acknow
   EXPECT_EQ(database_->unfinished_games().value().size(), 1U);
 }
 
+TEST_P(DatabaseConformance, lists_results_of_scored_games_as_they_ended) {
+  EXPECT_THAT(database_->results().value(), IsEmpty());
+  GameRecord last = sample_game(1, 0);
+  last.over = true;
+  last.result = rules::GameResult{rules::Seat::second, rules::EndReason::eight_pocketed};
+  last.finished = UnixMicros{99};
+  GameRecord first = sample_game(2, 1);
+  first.over = true;
+  first.result = rules::GameResult{std::nullopt, rules::EndReason::stalemate};
+  first.finished = UnixMicros{98};
+  in_transaction([&] { return database_->update_game(last); });
+  in_transaction([&] { return database_->update_game(first); });
+  const auto results = database_->results().value();
+  ASSERT_EQ(results.size(), 2U);
+  EXPECT_EQ(results[0].game, GameId{2});
+  EXPECT_FALSE(results[0].result.winner);
+  EXPECT_EQ(results[1].game, GameId{1});
+  EXPECT_EQ(results[1].agents, last.agents);
+  EXPECT_EQ(results[1].breaker, rules::Seat::second);
+  EXPECT_EQ(results[1].result, *last.result);
+  EXPECT_EQ(results[1].finished, UnixMicros{99});
+  last.result->reason = rules::EndReason::void_game;
+  in_transaction([&] { return database_->update_game(last); });
+  EXPECT_EQ(database_->results().value().size(), 1U) << "void games are no results";
+}
+
 TEST_P(DatabaseConformance, finishes_matches_and_lists_the_others) {
   EXPECT_EQ(database_->unfinished_matches().value().size(), 1U);
   in_transaction([&] { return database_->finish_match(MatchId{1}, UnixMicros{77}); });

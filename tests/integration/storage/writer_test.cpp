@@ -226,6 +226,7 @@ class FullDisk final : public Database {
   Expected<std::vector<UnfinishedGame>> unfinished_games() override {
     return database_->unfinished_games();
   }
+  Expected<std::vector<ResultRecord>> results() override { return database_->results(); }
   Expected<std::vector<GameId>> game_ids() override { return database_->game_ids(); }
   Expected<std::optional<TurnRecord>> turn(GameId game, std::uint32_t number) override {
     return database_->turn(game, number);

@@ -7,7 +7,7 @@
 #include "server/net/deadline_queue.hpp"
 #include "server/net/lag_meter.hpp"
 #include "server/net/server.hpp"
-#include "server/net/token_bucket.hpp"
+#include "server/web/token_bucket.hpp"
 #include "server/net/tokens.hpp"
 
 namespace poolhall::net {

@@ -8,7 +8,7 @@
 #include <chrono>
 #include <cstdint>
 
-namespace poolhall::net {
+namespace poolhall::web {
 
 class TokenBucket {
  public:
@@ -35,4 +35,4 @@ class TokenBucket {
   Time empty_at_{Time::min() + std::chrono::hours{1}};
 };
 
-}  // namespace poolhall::net
+}  // namespace poolhall::web

@@ -1,0 +1,147 @@
+// A tournament: progress, standings with error bars, crosstable, games; live while it goes on.
+
+import { getJson, throttled, watch } from './api.js';
+import { intervalChart } from './charts.js';
+import { fill, h } from './dom.js';
+import { progressBar } from './tournaments_view.js';
+import { capital, endingWords, signed, spaced } from './words.js';
+
+const mostGames = 300;
+
+/** @param {any} row */
+function ratingText(row) {
+  if (row.estimate) {
+    return `${signed(row.estimate.elo)} ± ${row.estimate.margin.toFixed(0)}`;
+  }
+  return row.rating === 'no_games' ? '' : spaced(row.rating);
+}
+
+/** @param {string} name */
+const agentLink = (name) => h('a', { href: `#/agents/${encodeURIComponent(name)}` }, name);
+
+export class TournamentView {
+  /**
+   * @param {HTMLElement} root
+   * @param {string} id
+   */
+  constructor(root, id) {
+    this.root = root;
+    this.id = id;
+    this.abort = new AbortController();
+    this.last = '';
+    this.refresh = throttled(1000, () => this.load().catch(() => {}));
+  }
+
+  async open() {
+    await this.load();
+    this.live = watch('/ws/lobby', () => this.refresh(), (state) => {
+      this.root.dataset.live = state;
+    });
+  }
+
+  close() {
+    this.abort.abort();
+    this.refresh.cancel();
+    this.live?.close();
+  }
+
+  async load() {
+    const data = await getJson(`/api/tournaments/${encodeURIComponent(this.id)}`, this.abort.signal);
+    const text = JSON.stringify(data);
+    if (text !== this.last) {
+      this.last = text;
+      this.paint(data);
+    }
+  }
+
+  /** @param {any} data */
+  paint(data) {
+    fill(this.root,
+      h('nav', { class: 'crumbs' }, h('a', { href: '#/' }, 'Tournaments'),
+        h('span', { 'aria-current': 'page' }, data.title || data.tournament),
+        h('span', { class: `tag status-${data.status}` }, data.status)),
+      h('div', { class: 'card wide' },
+        h('p', { class: 'dim' }, [data.rules, data.format && spaced(data.format),
+          data.games_per_match && `matches of ${data.games_per_match}`, data.table && `table ${data.table}`]
+          .filter(Boolean).join(' · ')),
+        progressBar(data)),
+      h('div', { class: 'columns' },
+        h('section', {}, h('h2', {}, 'Standings'), this.standings(data)),
+        h('section', {}, h('h2', {}, 'Elo with 95 % intervals'), this.chart(data))),
+      h('section', {}, h('h2', {}, 'Who against whom'), this.crosstable(data)),
+      h('section', {}, h('h2', {}, 'How games ended'), this.endings(data)),
+      h('section', {}, h('h2', {}, 'Games'), this.games(data)));
+  }
+
+  /** @param {any} data */
+  standings(data) {
+    const head = ['', 'Agent', 'Points', 'Games', 'Won', 'Lost', 'Drawn', 'Elo'];
+    return h('div', { class: 'scroll' }, h('table', { class: 'data' },
+      h('thead', {}, h('tr', {}, head.map((text, i) => h('th', { scope: 'col', class: i > 1 ? 'num' : '' }, text)))),
+      h('tbody', {}, data.standings.map((/** @type {any} */ row) => h('tr', {},
+        h('td', { class: 'num' }, row.rank), h('th', { scope: 'row' }, agentLink(row.agent)),
+        [row.points, row.games, row.wins, row.losses, row.draws, ratingText(row)]
+          .map((value) => h('td', { class: 'num' }, value)))))));
+  }
+
+  /** @param {any} data */
+  chart(data) {
+    const rated = data.standings.filter((/** @type {any} */ row) => row.estimate);
+    if (rated.length === 0) {
+      return h('p', { class: 'dim' }, 'The games so far give no ratings that can be compared.');
+    }
+    const advantage = data.break_advantage;
+    return h('div', {}, intervalChart(rated.map((/** @type {any} */ row) =>
+      ({ label: row.agent, value: row.estimate.elo, margin: row.estimate.margin })), 'Elo with 95 % intervals'),
+    advantage && h('p', { class: 'dim' },
+      `The break is worth ${signed(advantage.elo)} ± ${advantage.margin.toFixed(0)} Elo.`));
+  }
+
+  /** @param {any} data */
+  crosstable(data) {
+    const { standings, crosstable } = data;
+    const cell = (/** @type {number[] | null} */ value, /** @type {boolean} */ own) => {
+      if (own || !value) {
+        return h('td', { class: 'num dim' }, own ? '×' : '');
+      }
+      const td = h('td', { class: 'num heat' }, `${value[0]}/${value[1]}`);
+      td.style.setProperty('--share', String(value[0] / value[1]));
+      return td;
+    };
+    return h('div', { class: 'scroll' }, h('table', { class: 'data cross' },
+      h('thead', {}, h('tr', {}, h('th'), h('th'),
+        standings.map((/** @type {any} */ row, /** @type {number} */ i) =>
+          h('th', { scope: 'col', title: row.agent }, i + 1)))),
+      h('tbody', {}, standings.map((/** @type {any} */ row, /** @type {number} */ i) => h('tr', {},
+        h('td', { class: 'num' }, i + 1), h('th', { scope: 'row' }, row.agent),
+        crosstable[i].map((/** @type {any} */ value, /** @type {number} */ k) => cell(value, i === k)))))));
+  }
+
+  /** @param {any} data */
+  endings(data) {
+    const list = Object.entries(data.endings);
+    return h('p', { class: 'endings' }, list.map(([reason, count]) =>
+      h('span', { class: 'tag' }, `${capital(endingWords(reason))} ${count}`)));
+  }
+
+  /** @param {any} data */
+  games(data) {
+    const rows = data.matches.flatMap((/** @type {any} */ match) => match.games)
+      .sort((/** @type {any} */ a, /** @type {any} */ b) => Number(a.over) - Number(b.over) || b.game - a.game);
+    const result = (/** @type {any} */ game) => {
+      if (!game.over) {
+        return h('span', { class: 'tag status-running' }, 'running');
+      }
+      const who = game.winner === null || game.winner === undefined ? 'drawn' : `${game.agents[game.winner]} won`;
+      return `${who}, ${endingWords(game.reason)}`;
+    };
+    return h('div', { class: 'scroll' }, h('table', { class: 'data' },
+      h('thead', {}, h('tr', {}, ['Game', 'Breaks first', 'Against', 'Result', 'Turns']
+        .map((text) => h('th', { scope: 'col', class: /Game|Turns/.test(text) ? 'num' : '' }, text)))),
+      h('tbody', {}, rows.slice(0, mostGames).map((/** @type {any} */ game) => h('tr', {},
+        h('td', { class: 'num' }, h('a', { href: `#/games/${game.game}` }, game.game)),
+        h('td', {}, game.agents[0]), h('td', {}, game.agents[1]), h('td', {}, result(game)),
+        h('td', { class: 'num' }, game.turns ?? ''))))),
+    rows.length > mostGames && h('p', { class: 'dim' }, `The newest ${mostGames} of ${rows.length}.`));
+  }
+}

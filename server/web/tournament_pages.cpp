@@ -1,0 +1,317 @@
+// Pages of tournaments: progress, standings with error bars, who beat whom, games.
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "server/settings/tournament_settings.hpp"
+#include "server/tournament/crosstable.hpp"
+#include "server/tournament/standings.hpp"
+#include "server/web/page_parts.hpp"
+
+namespace poolhall::web {
+
+using tournament::EntryId;
+
+namespace {
+
+constexpr std::size_t most_games_listed = 2'000;
+
+// A tournament's rows, read once.
+struct Field {
+  storage::TournamentRecord record;
+  std::optional<settings::TournamentSettings> settings;
+  std::vector<storage::EntryRecord> entries;
+  std::vector<storage::MatchRecord> matches;
+  std::vector<std::vector<storage::GameRecord>> games;  // by match
+  std::map<storage::AgentId, EntryId> entry_of;
+};
+
+storage::Expected<Field> read_field(Reader& reader, const storage::TournamentRecord& record,
+                                    const Horizon& horizon) {
+  auto entries = reader.entries(record.id);
+  auto matches = reader.matches_of(record.id);
+  if (!entries || !matches) {
+    return tl::unexpected(entries ? matches.error() : entries.error());
+  }
+  Field field{.record = record,
+              .settings = {},
+              .entries = std::move(*entries),
+              .matches = std::move(*matches),
+              .games = {},
+              .entry_of = {}};
+  if (auto settings = settings::parse_tournament(record.settings, record.id)) {
+    field.settings = std::move(*settings);
+  }
+  for (std::size_t i = 0; i < field.entries.size(); ++i) {
+    field.entry_of[field.entries[i].agent] = EntryId{static_cast<std::uint32_t>(i)};
+  }
+  for (const storage::MatchRecord& match : field.matches) {
+    auto games = reader.games_of(match.id);
+    if (!games) {
+      return tl::unexpected(games.error());
+    }
+    for (storage::GameRecord& game : *games) {
+      game = horizon.seen(std::move(game));
+    }
+    field.games.push_back(std::move(*games));
+  }
+  return field;
+}
+
+std::optional<tournament::PlayedGame> played(const Field& field, const storage::MatchRecord& match,
+                                             const storage::GameRecord& game) {
+  const rules::Seat breaker = game.breaker;
+  const auto first = field.entry_of.find(game.agents[rules::index(breaker)]);
+  const auto second = field.entry_of.find(game.agents[rules::index(rules::other(breaker))]);
+  if (!game.over || !game.result || game.result->reason == rules::EndReason::void_game ||
+      first == field.entry_of.end() || second == field.entry_of.end()) {
+    return std::nullopt;
+  }
+  tournament::PlayedGame result;
+  result.pairing = match.pairing.value_or(0);
+  result.number = game.number;
+  result.breaker = first->second;
+  result.other = second->second;
+  result.reason = game.result->reason;
+  if (game.result->winner) {
+    result.winner = *game.result->winner == breaker ? first->second : second->second;
+  }
+  return result;
+}
+
+std::vector<tournament::PlayedGame> played_games(const Field& field) {
+  std::vector<tournament::PlayedGame> games;
+  for (std::size_t i = 0; i < field.matches.size(); ++i) {
+    for (const storage::GameRecord& game : field.games[i]) {
+      if (const auto result = played(field, field.matches[i], game)) {
+        games.push_back(*result);
+      }
+    }
+  }
+  return games;
+}
+
+std::vector<tournament::TieBreak> tie_breaks_of(const Field& field) {
+  std::vector<tournament::TieBreak> breaks;
+  if (field.settings) {
+    for (const std::string& name : field.settings->tie_breaks) {
+      if (const auto known = tournament::tie_break(name)) {
+        breaks.push_back(*known);
+      }
+    }
+  }
+  return breaks;
+}
+
+std::string_view word(ratings::RatingStatus status) {
+  switch (status) {
+    case ratings::RatingStatus::rated:
+      return "rated";
+    case ratings::RatingStatus::won_everything:
+      return "won_everything";
+    case ratings::RatingStatus::lost_everything:
+      return "lost_everything";
+    case ratings::RatingStatus::unconnected:
+      return "unconnected";
+    case ratings::RatingStatus::no_games:
+      break;
+  }
+  return "no_games";
+}
+
+void write_estimate(JsonWriter& out, std::string_view key,
+                    const std::optional<ratings::Estimate>& estimate) {
+  out.key(key);
+  if (!estimate) {
+    out.null();
+    return;
+  }
+  out.begin_object().key("elo").number(estimate->elo);
+  out.key("margin").number(estimate->margin).end_object();
+}
+
+void write_standings(JsonWriter& out, const Field& field, const Names& names,
+                     const tournament::Standings& table) {
+  out.key("tie_breaks").begin_array();
+  for (const tournament::TieBreak tie_break : table.tie_breaks) {
+    out.string(tournament::name(tie_break));
+  }
+  out.end_array().key("standings").begin_array();
+  for (const tournament::StandingsRow& row : table.rows) {
+    const storage::EntryRecord& entry = field.entries.at(tournament::index(row.entry));
+    out.begin_object().key("rank").integer(row.rank);
+    out.key("agent").string(name_in(names, entry.agent));
+    out.key("points").number(row.points).key("games").integer(row.games());
+    out.key("wins").integer(row.wins).key("losses").integer(row.losses);
+    out.key("draws").integer(row.draws);
+    out.key("tie_breaks").begin_array();
+    for (const double value : row.tie_breaks) {
+      out.number(value);
+    }
+    out.end_array().key("rating").string(word(row.rating.status));
+    write_estimate(out, "estimate", row.rating.rated);
+    out.key("group").integer(row.rating.group).end_object();
+  }
+  out.end_array();
+  write_estimate(out, "break_advantage", table.break_advantage);
+  out.key("endings").begin_object();
+  for (const auto& [reason, count] : table.endings) {
+    out.key(rules::name(reason)).integer(count);
+  }
+  out.end_object();
+}
+
+// Rows and columns in the order of the standings; null where they have not met.
+void write_crosstable(JsonWriter& out, const tournament::Crosstable& cross,
+                      const tournament::Standings& table) {
+  out.key("crosstable").begin_array();
+  for (const tournament::StandingsRow& row : table.rows) {
+    out.begin_array();
+    for (const tournament::StandingsRow& column : table.rows) {
+      const tournament::CrosstableCell& cell = cross.at(row.entry, column.entry);
+      if (cell.games == 0) {
+        out.null();
+      } else {
+        out.begin_array().number(cell.points).integer(cell.games).end_array();
+      }
+    }
+    out.end_array();
+  }
+  out.end_array();
+}
+
+void write_head(JsonWriter& out, const storage::TournamentRecord& tournament) {
+  out.key("tournament").string(tournament.id);
+  out.key("wire_id").integer(protocol::number(tournament.wire_id));
+  out.key("title").string(tournament.title);
+  out.key("status").string(storage::name(tournament.status));
+  out.key("created_ms").integer(unix_ms(tournament.created));
+}
+
+void write_terms(JsonWriter& out, const Field& field) {
+  if (!field.settings) {
+    return;
+  }
+  const settings::TournamentSettings& settings = *field.settings;
+  out.key("format").string(settings.format).key("rules").string(rules::name(settings.rules));
+  out.key("games_per_match").integer(settings.games_per_match);
+  out.key("table").string(settings.table).key("physics").string(settings.physics);
+}
+
+// How many games there will be, where the matches to come are known.
+std::optional<std::uint64_t> games_planned(const Field& field) {
+  if (!field.settings || field.settings->format != "round_robin") {
+    return std::nullopt;
+  }
+  const std::uint64_t entries = field.settings->entries.size();
+  return entries * (entries - std::min<std::uint64_t>(entries, 1)) / 2 *
+         field.settings->games_per_match;
+}
+
+void write_progress(JsonWriter& out, const Field& field, std::size_t over) {
+  std::size_t running = 0;
+  for (const auto& games : field.games) {
+    running += static_cast<std::size_t>(
+        std::count_if(games.begin(), games.end(), [](const auto& game) { return !game.over; }));
+  }
+  out.key("games_over").integer(over).key("games_running").integer(running);
+  out.key("games_planned");
+  if (const auto planned = games_planned(field)) {
+    out.integer(*planned);
+  } else {
+    out.null();
+  }
+}
+
+void write_matches(JsonWriter& out, const Field& field, const Names& names) {
+  std::size_t listed = 0;
+  out.key("matches").begin_array();
+  for (std::size_t i = field.matches.size(); i-- > 0 && listed < most_games_listed;) {
+    const storage::MatchRecord& match = field.matches[i];
+    out.begin_object().key("match").integer(protocol::number(match.id));
+    out.key("over").boolean(match.over);
+    write_agents(out, match.agents, names);
+    out.key("games").begin_array();
+    for (const storage::GameRecord& game : field.games[i]) {
+      ++listed;
+      out.begin_object().key("game").integer(protocol::number(game.id));
+      out.key("number").integer(game.number);
+      write_agents(out, game.agents, names);
+      write_result(out, game);
+      if (game.over) {
+        out.key("turns").integer(game.turns);
+      }
+      out.end_object();
+    }
+    out.end_array().end_object();
+  }
+  out.end_array();
+}
+
+void write_entries(JsonWriter& out, const Field& field, const Names& names) {
+  out.key("entries").begin_array();
+  for (const storage::EntryRecord& entry : field.entries) {
+    out.begin_object().key("agent").string(name_in(names, entry.agent));
+    out.key("withdrawn").boolean(entry.withdrawn).end_object();
+  }
+  out.end_array();
+}
+
+}  // namespace
+
+Page tournaments_page(Reader& reader, const Horizon& horizon) {
+  const auto tournaments = reader.tournaments();
+  const auto names = names_of(reader);
+  if (!tournaments || !names) {
+    return unreadable(tournaments ? names.error() : tournaments.error());
+  }
+  JsonWriter out;
+  out.begin_object().key("tournaments").begin_array();
+  for (const storage::TournamentRecord& tournament : *tournaments) {
+    const auto field = read_field(reader, tournament, horizon);
+    if (!field) {
+      return unreadable(field.error());
+    }
+    out.begin_object();
+    write_head(out, tournament);
+    write_terms(out, *field);
+    write_progress(out, *field, played_games(*field).size());
+    write_entries(out, *field, *names);
+    out.end_object();
+  }
+  out.end_array().end_object();
+  return page_of(out);
+}
+
+Page tournament_page(Reader& reader, std::string_view id, const Horizon& horizon) {
+  const auto tournaments = reader.tournaments();
+  const auto names = names_of(reader);
+  if (!tournaments || !names) {
+    return unreadable(tournaments ? names.error() : tournaments.error());
+  }
+  const auto found = std::find_if(tournaments->begin(), tournaments->end(),
+                                  [id](const auto& tournament) { return tournament.id == id; });
+  if (found == tournaments->end()) {
+    return not_found("there is no such tournament");
+  }
+  const auto field = read_field(reader, *found, horizon);
+  if (!field) {
+    return unreadable(field.error());
+  }
+  const auto games = played_games(*field);
+  const auto table = tournament::standings(field->entries.size(), games, tie_breaks_of(*field));
+  JsonWriter out;
+  out.begin_object();
+  write_head(out, *found);
+  write_terms(out, *field);
+  write_progress(out, *field, games.size());
+  write_entries(out, *field, *names);
+  write_standings(out, *field, *names, table);
+  write_crosstable(out, tournament::crosstable(field->entries.size(), games), table);
+  write_matches(out, *field, *names);
+  out.end_object();
+  return page_of(out);
+}
+
+}  // namespace poolhall::web
