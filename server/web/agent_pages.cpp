@@ -16,7 +16,7 @@ using ratings::Glicko2Rating;
 // Glickman recommends 10 to 15 games a player in a period.
 constexpr std::size_t games_in_period = 10;
 constexpr double tau = 0.5;
-constexpr std::size_t most_games_listed = 200;
+constexpr std::size_t most_games_of_agent = 200;
 
 struct RatingPoint {
   storage::UnixMicros when{};
@@ -130,7 +130,7 @@ void write_games(JsonWriter& out, const std::vector<storage::ResultRecord>& resu
                  storage::AgentId agent, const Names& names) {
   std::size_t listed = 0;
   out.key("last_games").begin_array();
-  for (auto result = results.rbegin(); result != results.rend() && listed < most_games_listed;
+  for (auto result = results.rbegin(); result != results.rend() && listed < most_games_of_agent;
        ++result) {
     if (result->agents[0] != agent && result->agents[1] != agent) {
       continue;
