@@ -26,6 +26,10 @@ const corner = 0.045;
 const fallTime = 0.22;
 const cueLength = 1.45;
 const backswing = 0.16;
+/** Copied, not blended: a frame begins with a picture of the whole table. */
+const opaque = { alpha: false };
+/** The page's own, around the table's round corners. */
+const pageGround = '#101418';
 const cloth = '#17593c';
 const clothLight = '#1e6c4a';
 const cushionColour = '#0f4630';
@@ -59,7 +63,7 @@ export class TableView {
     this.left = 0;
     this.top = 0;
     this.lies = true;
-    const found = canvas.getContext('2d');
+    const found = canvas.getContext('2d', opaque);
     if (!found) {
       throw new Error('this browser draws no canvas');
     }
@@ -149,10 +153,12 @@ export class TableView {
   paintGround() {
     this.ground.width = this.canvas.width;
     this.ground.height = this.canvas.height;
-    const ctx = this.ground.getContext('2d');
+    const ctx = this.ground.getContext('2d', opaque);
     if (!ctx) {
       return;
     }
+    ctx.fillStyle = pageGround;
+    ctx.fillRect(0, 0, this.ground.width, this.ground.height);
     this.enterTable(ctx);
     const { width, length } = this.table;
     this.paintFrame(ctx, width, length);

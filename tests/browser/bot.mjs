@@ -45,6 +45,7 @@ export class Bot {
         resolve(message.result);
       }
     } else if (message.method === 'game.turn') {
+      this.turn = message.params;
       this.onTurn(message.params);
     } else if (message.method === 'game.over') {
       this.onOver(message.params);
@@ -91,9 +92,16 @@ export async function playingPair(server, pause, tokens = []) {
       setTimeout(() => {
         const stroke = turn.turn === 1 ? { phi: 90.3, v: 8, theta: 5, b: 2 }
           : { phi: (turn.turn * 137.5) % 360, v: 2 + (turn.turn % 4) };
-        bot.shoot(turn, stroke).catch(() => {});
+        // Where the cue has no room, a higher one has; then somewhere else.
+        bot.shoot(turn, stroke)
+          .catch(() => bot.shoot(turn, { ...stroke, theta: 70 }))
+          .catch(() => bot.shoot(turn, { ...stroke, theta: 70, phi: (stroke.phi + 90) % 360 }))
+          .catch(() => {});
       }, pause);
     };
+    if (bot.turn) {
+      bot.onTurn(bot.turn);  // of a game that was going on
+    }
   }
   pair.begin = () => anna.ask('challenge', { opponent: 'bob', clock: { game_ms: 600_000 } });
   // One game after the other.

@@ -93,14 +93,17 @@ test('scrubbing to an instant gives the positions of the event log', enough, () 
 }));
 
 test('a deep link opens its shot at its instant', enough, () => withPage({}, async (page) => {
-  await page.open(at(`/games/${game}/shots/2?t=0.25`));
+  const { turns } = await api(`/api/games/${game}`);
+  const wanted = turns.filter((each) => each.action === 'shot').at(-1).turn;
+  const instant = (await api(`/api/games/${game}/shots/${wanted}`)).events.at(-1).t / 2;
+  await page.open(at(`/games/${game}/shots/${wanted}?t=${instant}`));
   await page.ready(`games/${game}`);
   const { t, turn, playing } = await page.evaluate(() => {
     const { view } = window.poolhall;
     return { t: view.playback.t, turn: view.turn.turn, playing: view.playback.playing };
   });
-  assert.deepEqual({ t, turn, playing }, { t: 0.25, turn: 2, playing: false });
-  assert.equal(await page.evaluate(() => document.querySelector('.shots .current').dataset.turn), '2');
+  assert.deepEqual({ t, turn, playing }, { t: instant, turn: wanted, playing: false });
+  assert.equal(await page.evaluate(() => document.querySelector('.shots .current').dataset.turn), String(wanted));
 }));
 
 test('keys play, pause, step from event to event and from shot to shot', enough, () => withPage({}, async (page) => {
