@@ -115,8 +115,12 @@ test('keys play, pause, step from event to event and from shot to shot', enough,
   assert.equal(await time(), [...new Set(shot.events.map((e) => e.t))][1]);
   await page.press('ArrowLeft');
   assert.equal(await time(), 0);
+  for (let i = 0; i < 3; ++i) {
+    await page.press('[');  // slowly, so that it is not over before it is paused
+  }
+  assert.equal(await page.evaluate(() => window.poolhall.view.playback.speed), 0.1);
   await page.press(' ');
-  await page.until(() => window.poolhall.view.playback.t > 0.1, 'it plays');
+  await page.until(() => window.poolhall.view.playback.t > 0.005, 'it plays');
   await page.press(' ');
   assert.equal(await page.evaluate(() => window.poolhall.view.playback.playing), false);
   await page.press('ArrowRight', 8);
