@@ -387,7 +387,8 @@ web::Sources Server::Impl::page_sources() {
   sources.admin = [this](web::AdminRequest request, web::Then then) {
     asio::post(io_, [this, request = std::move(request), then = std::move(then)] {
       admin_->answer(request, [this, then](web::Page page) {
-        asio::post(http_->io(), [then, page = std::move(page)]() mutable { then(std::move(page)); });
+        asio::post(http_->io(),
+                   [then, page = std::move(page)]() mutable { then(std::move(page)); });
       });
     });
   };

@@ -93,7 +93,10 @@ void write_parameters(JsonWriter& out, std::string_view path) {
     const std::string_view name = segment.substr(1, segment.size() - 2);
     out.begin_object().key("name").string(name).key("in").string("path");
     out.key("required").boolean(true).key("schema").begin_object();
-    out.key("type").string(name == "tournament" || name == "agent" || name == "table" ? "string" : "integer").end_object().end_object();
+    out.key("type")
+        .string(name == "tournament" || name == "agent" || name == "table" ? "string" : "integer")
+        .end_object()
+        .end_object();
   }
   out.end_array();
 }

@@ -33,8 +33,8 @@ struct Sources {
   std::function<void(std::function<Page(storage::Reader&)> work, Then then)> read;
   // Asked of the thread on which the games are.
   std::function<void(Then then)> health;
-  std::function<void(Then then)> metrics;     // Prometheus' text format
-  std::function<void(Then then)> live;        // JSON
+  std::function<void(Then then)> metrics;  // Prometheus' text format
+  std::function<void(Then then)> live;     // JSON
   std::function<void(AdminRequest request, Then then)> admin;
   std::chrono::milliseconds delay{0};         // what happened since then is not told yet
   std::uint32_t simulations_per_second = 10;  // of the workbench, for each address
