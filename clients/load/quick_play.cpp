@@ -12,7 +12,7 @@ namespace {
 using rules::TurnKind;
 
 // High enough for the stick to pass over the rail and most balls.
-constexpr double elevation = 22;         // degrees
+constexpr double elevation = 40;         // degrees
 constexpr double break_heading = 90;     // degrees: towards the foot
 constexpr int most_places = 200;         // tried for a cue ball in hand
 constexpr unsigned streams_a_turn = 16;  // refused answers are not given again

@@ -1,5 +1,6 @@
 // poolhall bench precision | ... : measures, prints tables, writes CSV and SVG.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <exception>
 #include <functional>
 #include <iostream>
@@ -8,6 +9,9 @@
 
 #include "server/app/commands.hpp"
 #include "tests/bench/benchmarks.hpp"
+#include "tests/bench/server/server_bench.hpp"
+#include "tests/fault/harness/kill_run.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace poolhall::app {
 
@@ -22,6 +26,25 @@ int guarded(const std::function<bool()>& run) {
     std::cerr << "poolhall bench: " << error.what() << '\n';
     return 1;
   }
+}
+
+struct FaultOptions {
+  std::uint32_t kills = 1'000;
+  std::uint32_t games = 50;
+  std::uint64_t seed = 1;
+};
+
+bool bench_faults(const FaultOptions& options) {
+  const test_support::TemporaryDirectory directory;
+  const fault::KillReport report =
+      fault::run_kills({.directory = directory.path(),
+                        .kills = options.kills,
+                        .kills_a_failpoint = std::max(1U, options.kills / 40),
+                        .games = options.games,
+                        .seed = options.seed,
+                        .progress = &std::cout});
+  fault::print(report, std::cout);
+  return report.sound();
 }
 
 struct BenchCommand {
@@ -45,6 +68,46 @@ BenchCommand add_benchmark(CLI::App& parent, int& exit_code, const std::string& 
     exit_code = guarded([&] { return run(*options, std::cout); });
   });
   return {command, options};
+}
+
+void add_server_bench(CLI::App& parent, int& exit_code) {
+  auto options = std::make_shared<bench::ServerBenchOptions>();
+  CLI::App* command = parent.add_subcommand(
+      "server", "the server under load: memory an agent, shots a second, latencies");
+  command->add_option("--directory", options->directory, "where the databases are made");
+  command->add_option("--seconds", options->seconds, "of each measurement")
+      ->check(CLI::Range(0.5, 3600.0))
+      ->capture_default_str();
+  command->add_option("--idle", options->idle, "agents that only log in")->capture_default_str();
+  command->add_option("--games", options->games, "in closed loop")
+      ->check(CLI::Range(1U, 10'000U))
+      ->capture_default_str();
+  command->add_option("--paced-games", options->paced_games, "in open loop")
+      ->check(CLI::Range(1U, 100'000U))
+      ->capture_default_str();
+  command->add_option("--rate", options->rate, "shots a second in all paced games")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  command->callback([options, &exit_code] {
+    exit_code = guarded([&] { return bench::bench_server(*options, std::cout); });
+  });
+}
+
+void add_faults_bench(CLI::App& parent, int& exit_code) {
+  auto options = std::make_shared<FaultOptions>();
+  CLI::App* command = parent.add_subcommand(
+      "faults", "bad clients and kills of the server, and what holds all the same");
+  command
+      ->add_option("--kills", options->kills,
+                   "at random moments; as many again in forty at "
+                   "each failpoint")
+      ->capture_default_str();
+  command->add_option("--games", options->games, "that go on meanwhile")
+      ->check(CLI::Range(1U, 10'000U))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of agents and moments")->capture_default_str();
+  command->callback(
+      [options, &exit_code] { exit_code = guarded([&] { return bench_faults(*options); }); });
 }
 
 }  // namespace
@@ -73,6 +136,8 @@ void add_bench_command(CLI::App& app, int& exit_code) {
                 "extreme scenes, expected against found, and random shots and breaks",
                 bench::bench_stability);
   add_benchmark(*command, exit_code, "lean", "what each omission saves", bench::bench_lean);
+  add_faults_bench(*command, exit_code);
+  add_server_bench(*command, exit_code);
   const BenchCommand speed =
       add_benchmark(*command, exit_code, "speed",
                     "microseconds a shot, and against the paper's own scheme", bench::bench_speed);

@@ -6,8 +6,13 @@
 #include "protocol/events_json.hpp"
 #include "protocol/state_json.hpp"
 #include "server/match/chain.hpp"
+#include "server/meter/work_meter.hpp"
 
 namespace poolhall::match {
+
+using meter::Area;
+using meter::metered;
+
 namespace {
 
 // Where the request has what the referee and the simulator were given.
@@ -22,19 +27,24 @@ PlayOutcome judged(const ShotJob& job, const rules::GameState& ready,
                    const protocol::ExecutedShot& executed,
                    const physics::EventLog<double>& events) {
   const Board& board = *job.board;
-  auto ruling = rules::judge(ready, job.row.shot->call, events, board.table, board.materials);
+  auto ruling = metered(Area::rules, [&] {
+    return rules::judge(ready, job.row.shot->call, events, board.table, board.materials);
+  });
   if (!ruling)
     return fault("the referee refused a simulated shot", ruling.error().reason);
   PlayedTurn played{.record = job.row, .next = std::move(ruling->next)};
   storage::TurnRecord& row = played.record;
   row.shot->executed = executed.params;
   row.shot->moved = executed.moved;
-  row.shot->events = protocol::encode_events(events, protocol::EventDetail::full);
   ruling->next = played.next;
-  row.ruling = protocol::encode_ruling(*ruling);
-  row.state_after = protocol::encode_state(played.next);
+  {
+    const meter::Metered timed{Area::json_out};
+    row.shot->events = protocol::encode_events(events, protocol::EventDetail::full);
+    row.ruling = protocol::encode_ruling(*ruling);
+    row.state_after = protocol::encode_state(played.next);
+  }
   row.result = played.next.result;
-  row.checksum = chained(job.previous, row);
+  row.checksum = metered(Area::checksums, [&] { return chained(job.previous, row); });
   return played;
 }
 
@@ -59,19 +69,26 @@ physics::Scene<double> scene_of(const rules::GameState& ready, const Board& boar
 PlayOutcome play(const ShotJob& job) {
   const Board& board = *job.board;
   const storage::ShotPart& shot = *job.row.shot;
-  const auto ready =
-      rules::prepare_shot(job.state, shot.call, shot.cue_ball, board.table, board.materials);
+  const auto ready = metered(Area::rules, [&] {
+    return rules::prepare_shot(job.state, shot.call, shot.cue_ball, board.table, board.materials);
+  });
   if (!ready)
     return protocol::error_from(ready.error(), request_prefix);
   const physics::BallSet<double> balls = rules::balls_on_table(*ready);
-  if (const auto possible = physics::check_shot(protocol::to_physics(shot.intended), balls,
-                                                board.table, board.materials);
-      !possible)
+  const auto possible = metered(Area::physics, [&] {
+    return physics::check_shot(protocol::to_physics(shot.intended), balls, board.table,
+                               board.materials);
+  });
+  if (!possible)
     return protocol::error_from(possible.error(), stroke_prefix);
 
-  const protocol::ExecutedShot executed = protocol::executed_shot(
-      shot.intended, job.noise, job.deviates, balls, board.table, board.materials);
-  const auto simulation = physics::simulate(scene_of(*ready, board, executed.params), {});
+  const protocol::ExecutedShot executed = metered(Area::physics, [&] {
+    return protocol::executed_shot(shot.intended, job.noise, job.deviates, balls, board.table,
+                                   board.materials);
+  });
+  const auto simulation = metered(Area::physics, [&] {
+    return physics::simulate(scene_of(*ready, board, executed.params), {});
+  });
   if (!simulation)
     return fault("the simulator refused a shot", simulation.error().reason);
   if (simulation->ending != physics::Ending::at_rest)

@@ -12,6 +12,7 @@
 
 #include <span>
 
+#include "server/meter/work_meter.hpp"
 #include "server/net/awaited.hpp"
 #include "server/net/socket_options.hpp"
 
@@ -133,7 +134,8 @@ asio::awaitable<void> Connection::read_loop(std::shared_ptr<Connection> self) {
 
 // False at the end of the stream. One read a turn, so that nobody's flood keeps others waiting.
 bool Connection::read_once() {
-  const Channel::Result got = channel_.read(context_.scratch);
+  const Channel::Result got =
+      meter::metered(meter::Area::receiving, [this] { return channel_.read(context_.scratch); });
   awaits_room_ = got.state == Channel::State::needs_output;
   if (std::exchange(awaits_input_, false)) {
     schedule_flush();
@@ -268,7 +270,9 @@ bool Connection::write_some() {
       const std::size_t skip = count == 0 ? out_offset_ : 0;
       buffers[count] = asio::buffer(*out_[count]) + skip;
     }
-    const Channel::Result sent = channel_.write({buffers.data(), count});
+    const Channel::Result sent = meter::metered(meter::Area::sending, [&] {
+      return channel_.write({buffers.data(), count});
+    });
     if (sent.state == Channel::State::ended) {
       abort("the connection is broken");
       return false;

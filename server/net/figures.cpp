@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "protocol/json_writer.hpp"
+#include "server/meter/work_meter.hpp"
 
 namespace poolhall::net {
 
@@ -15,6 +16,25 @@ void metric(std::string& out, std::string_view name, std::string_view type, std:
             Value value) {
   out += fmt::format("# HELP poolhall_{0} {2}\n# TYPE poolhall_{0} {1}\npoolhall_{0} {3}\n", name,
                      type, help, value);
+}
+
+double seconds(std::chrono::nanoseconds time) {
+  return std::chrono::duration<double>(time).count();
+}
+
+void add_process(std::string& out) {
+  out +=
+      "# HELP poolhall_cpu_seconds_total Processor time by kind of work, from a sample.\n"
+      "# TYPE poolhall_cpu_seconds_total counter\n";
+  const auto times = meter::work_times();
+  for (std::size_t i = 0; i < times.size(); ++i) {
+    out += fmt::format("poolhall_cpu_seconds_total{{area=\"{}\"}} {}\n",
+                       meter::name(static_cast<meter::Area>(i)), seconds(times[i]));
+  }
+  metric(out, "process_cpu_seconds_total", "counter", "Processor time of the server.",
+         seconds(meter::process_time()));
+  metric(out, "process_resident_memory_bytes", "gauge", "Memory that the server occupies.",
+         meter::resident_bytes());
 }
 
 }  // namespace
@@ -43,8 +63,10 @@ std::string metrics_of(const ArenaFigures& figures, const storage::WriterStatist
   metric(out, "commits_total", "counter", "Transactions committed.", writing.commits);
   metric(out, "writes_total", "counter", "Pieces of work committed.", writing.written);
   metric(out, "writes_waiting", "gauge", "Pieces of work that wait.", writing.waiting);
-  metric(out, "writer_busy_seconds_total", "counter", "Time spent writing.",
-         std::chrono::duration<double>(writing.busy).count());
+  metric(out, "writer_busy_seconds_total", "counter", "Time spent writing.", seconds(writing.busy));
+  metric(out, "largest_group", "gauge", "Most pieces of work in one transaction.",
+         writing.largest_group);
+  add_process(out);
   return out;
 }
 

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <utility>
 
+#include "server/meter/work_meter.hpp"
+
 namespace poolhall::net {
 
 using protocol::Error;
@@ -30,6 +32,16 @@ std::string printable(std::string text) {
 
 Line line_of(std::string text) {
   return std::make_shared<const std::string>(std::move(text));
+}
+
+std::string encoded(const Notification& notification, std::uint64_t seq) {
+  const meter::Metered timed{meter::Area::json_out};
+  return protocol::encode_notification(notification, seq);
+}
+
+std::string encoded(const protocol::RequestId& id, const Reply& answer) {
+  const meter::Metered timed{meter::Area::json_out};
+  return protocol::encode_reply(id, answer);
 }
 
 }  // namespace
@@ -65,11 +77,11 @@ void Session::begin() {
 }
 
 void Session::push(const Notification& notification) {
-  send(protocol::encode_notification(notification, ++seq_), nullptr);
+  send(encoded(notification, ++seq_), nullptr);
 }
 
 void Session::reply(const protocol::RequestId& id, const Reply& answer) {
-  send(protocol::encode_reply(id, answer), &id);
+  send(encoded(id, answer), &id);
 }
 
 void Session::refuse(const protocol::RequestId& id, const Error& error) {
@@ -147,7 +159,8 @@ void Session::on_line(std::string_view line, SteadyTime read_at) {
     }
     return;
   }
-  auto incoming = protocol::decode_request(line, lobby_.limits());
+  auto incoming = meter::metered(meter::Area::json_in,
+                                 [&] { return protocol::decode_request(line, lobby_.limits()); });
   if (!incoming) {
     bad_line(incoming.error().id, incoming.error().error);
     return;

@@ -8,6 +8,7 @@
 #include <utility>
 #include <vector>
 
+#include "server/meter/work_meter.hpp"
 #include "server/storage/failpoint.hpp"
 
 namespace poolhall::storage {
@@ -152,7 +153,8 @@ void Writer::Impl::write(std::vector<Piece> group) {
 
 std::optional<StorageError> Writer::Impl::commit() {
   failpoint(Failpoint::before_commit);
-  const Expected<void> committed = database_->commit();
+  const Expected<void> committed =
+      meter::metered(meter::Area::commits, [this] { return database_->commit(); });
   if (!committed) {
     database_->rollback();
     return committed.error();
@@ -167,7 +169,9 @@ std::optional<StorageError> Writer::Impl::write_together(const std::vector<Piece
   if (const Expected<void> begun = database_->begin(); !begun)
     return begun.error();
   for (const Piece& piece : group) {
-    if (const Expected<void> written = piece.work(*database_); !written) {
+    const Expected<void> written =
+        meter::metered(meter::Area::database, [&] { return piece.work(*database_); });
+    if (!written) {
       database_->rollback();
       return written.error();
     }
