@@ -40,6 +40,8 @@ constexpr int most_passes = 60;
 constexpr milliseconds failpoint_patience{8'000};
 constexpr milliseconds pairing_interval{40};
 constexpr std::chrono::seconds next_challenge{1};
+// One in so many chances to concede to an opponent who is away.
+constexpr std::int64_t concessions_to_absent = 20;
 constexpr std::chrono::seconds longest_end{60};
 
 constexpr std::string_view settings = R"([log]
@@ -222,6 +224,14 @@ void KillRun::server_died() {
 
 void KillRun::pair_up() {
   const SteadyTime now = steady_clock::now();
+  // Some games end while an agent is away: it has to learn of it.
+  for (std::size_t i = 0; i < agents_.size() && !ending_; ++i) {
+    Survivor& opponent = *agents_[i ^ 1U];
+    if (!agents_[i]->is_in() && opponent.is_in() && opponent.games() > 0 &&
+        drawn(0, concessions_to_absent) == 0) {
+      opponent.concede_games();
+    }
+  }
   for (std::size_t pair = 0; pair < challenged_.size() && !ending_; ++pair) {
     Survivor& one = *agents_[2 * pair];
     const Survivor& other = *agents_[2 * pair + 1];

@@ -239,6 +239,21 @@ void Survivor::think(std::int64_t game) {
   });
 }
 
+// A later turn may have come before the answer to an earlier one that was repeated.
+void Survivor::think_again(std::int64_t game) {
+  const auto found = desks_.find(game);
+  if (found != desks_.end() && found->second.turn) {
+    think(game);
+  }
+}
+
+void Survivor::concede_games() {
+  for (auto& [game, desk] : desks_) {
+    desk.conceding = true;
+    static_cast<void>(send(protocol::Concede{protocol::GameId{game}}));
+  }
+}
+
 void Survivor::answer(std::int64_t game, Desk& desk) {
   if (happens(settings_.concedes)) {
     desk.conceding = true;
@@ -267,7 +282,9 @@ void Survivor::reply_came(std::int64_t id, std::string_view line) {
       ++counts_.had_been_stored;
     }
     ledger_.told_move(line, desk->seat);
+    const std::int64_t game = desk->sent->turn.game;
     desk->sent.reset();
+    think_again(game);
     return;
   }
   acks_.erase(id);
@@ -302,7 +319,8 @@ void Survivor::answer_refused(Desk& desk, std::string_view code, std::string_vie
     return;
   }
   if (code == "game_over" || code == "stale_turn") {
-    ++counts_.overtaken;  // the opponent conceded meanwhile, or the game's clock says so
+    ++counts_.overtaken;  // the opponent conceded meanwhile
+    think_again(sent.turn.game);
     return;
   }
   counts_.complaints.push_back("an answer got " + std::string(line.substr(0, 200)));

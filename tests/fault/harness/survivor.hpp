@@ -55,6 +55,8 @@ class Survivor {
   void server_is_at(const boost::asio::ip::tcp::endpoint& server, SteadyTime started);
   void server_is_gone();
   void challenge(const std::string& opponent);
+  // While it is in.
+  void concede_games();
   // From now on: no thoughts, no absences, no concessions; games come to their ends.
   void hurry();
 
@@ -90,6 +92,7 @@ class Survivor {
   void answer_refused(Desk& desk, std::string_view code, std::string_view line);
   void turn_came(std::string_view line);
   void think(std::int64_t game);
+  void think_again(std::int64_t game);
   void answer(std::int64_t game, Desk& desk);
   void over(std::string_view line);
   void open_desk(std::string_view line);
