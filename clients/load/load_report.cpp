@@ -78,7 +78,11 @@ std::string json_of(LoadReport& report) {
   out.end_object();
   write_counts(out, "refusals", report.refusals);
   write_counts(out, "errors", report.errors);
-  out.key("failure");
+  out.key("raised").begin_array();
+  for (const std::string& line : report.raised) {
+    out.string(line);
+  }
+  out.end_array().key("failure");
   if (report.failure) {
     out.string(*report.failure);
   } else {

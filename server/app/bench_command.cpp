@@ -10,6 +10,7 @@
 #include "server/app/commands.hpp"
 #include "tests/bench/benchmarks.hpp"
 #include "tests/bench/server/server_bench.hpp"
+#include "tests/fault/harness/bad_run.hpp"
 #include "tests/fault/harness/kill_run.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -36,6 +37,9 @@ struct FaultOptions {
 
 bool bench_faults(const FaultOptions& options) {
   const test_support::TemporaryDirectory directory;
+  const fault::BadReport bad =
+      fault::run_bad_clients({.directory = directory.path(), .seed = options.seed});
+  fault::print(bad, std::cout);
   const fault::KillReport report =
       fault::run_kills({.directory = directory.path(),
                         .kills = options.kills,
@@ -44,7 +48,7 @@ bool bench_faults(const FaultOptions& options) {
                         .seed = options.seed,
                         .progress = &std::cout});
   fault::print(report, std::cout);
-  return report.sound();
+  return bad.sound() && report.sound();
 }
 
 struct BenchCommand {

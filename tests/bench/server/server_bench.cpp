@@ -83,7 +83,8 @@ struct Measured {
   double wire_out = 0;                                   // bytes a shot, from the server
   double wire_in = 0;
   double errors = 0;
-  double generator_cpu = 0;  // seconds, of its whole life
+  std::vector<std::string> raised;  // limits, by the generator
+  double generator_cpu = 0;         // seconds, of its whole life
   double stored_bytes_a_turn = 0;
 
   [[nodiscard]] double spent(const std::string& metric) const {
@@ -127,6 +128,11 @@ void read_report(const std::string& line, Measured& measured) {
   measured.most = number_of(latency, "max");
   measured.wire_out = number_of(*report, "bytes_in") / measured.shots;
   measured.wire_in = number_of(*report, "bytes_out") / measured.shots;
+  if (const auto* raised = report->member("raised")->as<protocol::JsonArray>()) {
+    for (const JsonValue& line : *raised) {
+      measured.raised.push_back(*line.as<std::string>());
+    }
+  }
   if (const auto* errors = report->member("errors")->as<protocol::JsonObject>()) {
     for (const auto& [code, count] : *errors) {
       measured.errors += number_of(*report->member("errors"), code);
@@ -221,8 +227,11 @@ void print_shares(const Measured& measured, std::ostream& out) {
 }
 
 void print(const Scene& scene, const Measured& measured, std::ostream& out) {
-  out << scene.title << '\n'
-      << formatted("  %.0f durable shots/s (%.0f answers/s), %.0f errors, %.0f unanswered\n",
+  out << scene.title << '\n';
+  for (const std::string& line : measured.raised) {
+    out << "  the generator raised its " << line << '\n';
+  }
+  out << formatted("  %.0f durable shots/s (%.0f answers/s), %.0f errors, %.0f unanswered\n",
                    measured.shots / measured.seconds, measured.answers / measured.seconds,
                    measured.errors, measured.unanswered)
       << formatted("  latency ms: p50 %.2f  p90 %.2f  p99 %.2f  p99.9 %.2f  max %.2f\n",
@@ -284,7 +293,7 @@ bool bench_server(const ServerBenchOptions& options, std::ostream& out) {
   out << "databases in " << place.string() << (is_in_memory(place) ? " (in memory!)" : " (a disk)")
       << ", " << std::thread::hardware_concurrency()
       << " cores for server and generator; limits raised: connections and connections of an address"
-         " to 1000000, file descriptors of both processes\n";
+         " to 1000000; the server raises its file descriptors to what the system allows\n";
   bool met = true;
   for (const auto scene : {closed_loop, open_loop, idle_and_playing}) {
     const test_support::TemporaryDirectory directory(place);

@@ -345,7 +345,7 @@ std::string Survivor::standing() const {
 void Survivor::over(std::string_view line) {
   ledger_.told_over(name(), line);
   const std::int64_t game = load::integer_in(line, "game").value_or(0);
-  desks_.erase(game);
+  ends_ += desks_.erase(game);
   acks_.emplace(send(protocol::Ack{protocol::GameId{game}}), game);
 }
 

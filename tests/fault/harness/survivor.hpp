@@ -63,6 +63,8 @@ class Survivor {
   [[nodiscard]] const std::string& name() const { return settings_.name; }
   [[nodiscard]] bool is_in() const { return stage_ == Stage::in; }
   [[nodiscard]] std::size_t games() const { return desks_.size(); }
+  // Of games, that it was told of.
+  [[nodiscard]] std::size_t ends() const { return ends_; }
   // How each of its games stands, for whoever asks why it does not end.
   [[nodiscard]] std::string standing() const;
   // The server knows that this agent knows of every end.
@@ -121,6 +123,7 @@ class Survivor {
   std::map<std::int64_t, Desk> desks_;
   std::map<std::int64_t, std::int64_t> acks_;  // games by request id
   std::uint64_t challenges_ = 0;
+  std::size_t ends_ = 0;
   load::Felt felt_;
 };
 
