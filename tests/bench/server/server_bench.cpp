@@ -129,8 +129,8 @@ void read_report(const std::string& line, Measured& measured) {
   measured.wire_out = number_of(*report, "bytes_in") / measured.shots;
   measured.wire_in = number_of(*report, "bytes_out") / measured.shots;
   if (const auto* raised = report->member("raised")->as<protocol::JsonArray>()) {
-    for (const JsonValue& line : *raised) {
-      measured.raised.push_back(*line.as<std::string>());
+    for (const JsonValue& limit : *raised) {
+      measured.raised.push_back(*limit.as<std::string>());
     }
   }
   if (const auto* errors = report->member("errors")->as<protocol::JsonObject>()) {

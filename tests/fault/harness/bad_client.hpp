@@ -3,7 +3,7 @@
 //
 //   for (const BadClient& client : bad_clients()) {
 //     const BadVisit visit = client.visit(port, log);
-//     log.await_end(visit.local_port);    // "too_slow: no login within 700 ms ..."
+//     log.await_end(visit.local_port);    // "too_slow: no login within 2000 ms ..."
 //   }
 #pragma once
 

@@ -17,7 +17,7 @@ constexpr std::chrono::seconds patience{30};
 
 }  // namespace
 
-// "connection 7 from 127.0.0.1:40312 has ended, agent 3: too_slow: no login within 700 ms"
+// "connection 7 from 127.0.0.1:40312 has ended, agent 3: too_slow: no login within 2000 ms"
 class EndLog::Sink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
   std::optional<std::string> await_end(std::uint16_t port) {

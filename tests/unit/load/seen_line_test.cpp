@@ -67,7 +67,9 @@ TEST(SeenLine, TellsRepliesFromErrors) {
 }
 
 TEST(QuickPlay, AnswersTheSameTurnAlikeAndARefusedOneOtherwise) {
-  SeenTurn turn{.game = 3, .turn = 8, .kind = rules::TurnKind::shot};
+  SeenTurn turn;
+  turn.game = 3;
+  turn.turn = 8;
   const auto once = std::get<protocol::Shot>(quick_answer(turn, {}, 1));
   EXPECT_EQ(once, std::get<protocol::Shot>(quick_answer(turn, {}, 1)));
   turn.refusals = 1;
@@ -78,7 +80,8 @@ TEST(QuickPlay, AnswersTheSameTurnAlikeAndARefusedOneOtherwise) {
 
 TEST(QuickPlay, PlacesTheCueBallClearOfTheOthersAndBehindTheHeadString) {
   const Felt felt;
-  SeenTurn turn{.game = 3, .kind = rules::TurnKind::ball_in_hand_behind_head_string};
+  SeenTurn turn;
+  turn.kind = rules::TurnKind::ball_in_hand_behind_head_string;
   turn.taken = {{0.5, 0.3}, {0.6, 0.2}, {0.2, 0.1}};
   for (turn.turn = 1; turn.turn < 200; ++turn.turn) {
     const auto place = *std::get<protocol::Shot>(quick_answer(turn, felt, 1)).cue_ball;
