@@ -60,11 +60,11 @@ template <class Real>
 
 template <class Real>
 [[nodiscard]] physics::Expected<SceneRun> run_scene_in(const protocol::SceneFile& file) {
-  const auto done = physics::simulate(protocol::scene_of<Real>(file), file.options);
-  if (!done) {
-    return tl::unexpected(done.error());
+  const auto simulated = physics::simulate(protocol::scene_of<Real>(file), file.options);
+  if (!simulated) {
+    return tl::unexpected(simulated.error());
   }
-  return SceneRun{protocol::simulation_text(*done), rounded(*done)};
+  return SceneRun{protocol::simulation_text(*simulated), rounded(*simulated)};
 }
 
 }  // namespace poolhall::app
