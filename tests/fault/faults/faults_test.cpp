@@ -19,8 +19,11 @@ std::string text_of(const Report& report) {
 
 TEST(BadClients, AreToldWhyAndLeaveGoodGamesBitForBitAsTheyAre) {
   const test_support::TemporaryDirectory directory;
-  const BadReport report =
-      run_bad_clients({.directory = directory.path(), .games = 2, .rounds = 1, .seed = 7});
+  const BadReport report = run_bad_clients({.directory = directory.path(),
+                                            .games = 2,
+                                            .rounds = 1,
+                                            .seed = 7,
+                                            .longest_thought = std::chrono::milliseconds{15}});
   EXPECT_TRUE(report.sound()) << text_of(report);
 }
 

@@ -78,6 +78,7 @@ GoodGames::GoodGames(const BadOptions& options, const std::filesystem::path& dat
         std::make_unique<Survivor>(io_, traffic_,
                                    SurvivorSettings{.name = "good-" + std::to_string(i),
                                                     .seed = options_.seed * 1'009 + i,
+                                                    .longest_thought = options_.longest_thought,
                                                     .goes_away = 0,
                                                     .concedes = 0},
                                    ledger_, counts_));

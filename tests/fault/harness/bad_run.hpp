@@ -5,6 +5,7 @@
 //   print(report, std::cout);
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <iosfwd>
@@ -18,6 +19,7 @@ struct BadOptions {
   std::uint32_t games = 8;
   std::uint32_t rounds = 3;  // visits of each bad client
   std::uint64_t seed = 1;
+  std::chrono::milliseconds longest_thought{60};  // of the good clients
 };
 
 struct BadEnd {
