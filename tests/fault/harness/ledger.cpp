@@ -227,8 +227,8 @@ void Ledger::check_clocks(const Game& told, const storage::GameRecord& game,
     auto due = after.back();
     if (own_time) {
       // A game that is conceded or forfeited charges whose turn it was, whoever ended it.
-      const Seat mover = row.clock.left[0] == due.left[0] ? Seat::second : Seat::first;
-      const Seat charged = played ? row.seat : mover;
+      const auto before = protocol::decode_state(row.state_before);
+      const Seat charged = played || !before ? row.seat : before->to_move;
       due = played ? match::after_turn(settings, due, charged, time)
                    : match::after_charge(settings, due, charged, time);
     }

@@ -288,6 +288,7 @@ void Survivor::reply_came(std::int64_t id, std::string_view line) {
     return;
   }
   acks_.erase(id);
+  overtaken_.erase(id);
 }
 
 void Survivor::error_came(std::int64_t id, std::string_view line) {
@@ -301,6 +302,8 @@ void Survivor::error_came(std::int64_t id, std::string_view line) {
     after(before_next_try, [this] { connect(); });
   } else if (Desk* desk = desk_asking(id)) {
     answer_refused(*desk, code, line);
+  } else if (overtaken_.erase(id) == 1 && (code == "stale_turn" || code == "game_over")) {
+    ++counts_.overtaken;
   } else if (code != "unknown_agent" && code != "unknown_challenge" && code != "game_over" &&
              code != "conflicting_request") {
     counts_.complaints.push_back(std::string(code) +
@@ -345,7 +348,13 @@ std::string Survivor::standing() const {
 void Survivor::over(std::string_view line) {
   ledger_.told_over(name(), line);
   const std::int64_t game = load::integer_in(line, "game").value_or(0);
-  ends_ += desks_.erase(game);
+  if (const auto desk = desks_.find(game); desk != desks_.end()) {
+    if (desk->second.sent) {
+      overtaken_.insert(desk->second.sent->id);
+    }
+    desks_.erase(desk);
+    ++ends_;
+  }
   acks_.emplace(send(protocol::Ack{protocol::GameId{game}}), game);
 }
 

@@ -16,6 +16,7 @@
 #include <memory>
 #include <optional>
 #include <random>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -121,6 +122,7 @@ class Survivor {
   std::int64_t next_id_ = 1;
   std::int64_t login_id_ = 0;
   std::map<std::int64_t, Desk> desks_;
+  std::set<std::int64_t> overtaken_;           // answers under way when their game ended
   std::map<std::int64_t, std::int64_t> acks_;  // games by request id
   std::uint64_t challenges_ = 0;
   std::size_t ends_ = 0;
