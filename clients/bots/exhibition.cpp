@@ -89,9 +89,8 @@ class Exhibition {
     if (!physics::check_shot(protocol::to_physics(shot.stroke), balls, table_, materials_)) {
       return false;
     }
-    Dice dice(Dice::key(settings_.seed, "noise"), state_.turn);
     const auto executed =
-        protocol::executed_shot(shot.stroke, noise_, dice.deviates(), balls, table_, materials_);
+        protocol::executed_shot(shot.stroke, noise_, deviates(seat), balls, table_, materials_);
     const auto simulation = physics::simulate(
         physics::Scene<double>{table_, materials_, balls, protocol::to_physics(executed.params)},
         {});
@@ -105,6 +104,13 @@ class Exhibition {
     record(game_.seats[rules::index(seat)], seat, *ruling);
     state_ = ruling->next;
     return true;
+  }
+
+  physics::ShotDeviates deviates(rules::Seat seat) {
+    if (settings_.deviates) {
+      return settings_.deviates(seat, game_.seats[rules::index(seat)].shots + 1);
+    }
+    return Dice(Dice::key(settings_.seed, "noise"), state_.turn).deviates();
   }
 
   bool give_up(std::string fault) {

@@ -22,6 +22,9 @@ struct ExhibitionSettings {
   std::string materials = "olympiad";
   std::string noise = "olympiad";
   std::uint64_t seed = 1;  // of the noise
+  // Unset: drawn from the seed. Of a seat's shot with this number, from 1; asked for when the shot
+  // has been chosen, and may block.
+  std::function<physics::ShotDeviates(rules::Seat, std::uint32_t)> deviates{};
   std::uint32_t most_turns = 2000;
 };
 

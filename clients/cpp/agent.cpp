@@ -204,8 +204,24 @@ std::optional<End> Agent::logged_in(const protocol::LoginReply& reply) {
     token_ = *reply.token;
   }
   log("logged in as " + reply.agent + ", games under way: " + std::to_string(reply.games.size()));
+  add_to_next_noise();  // before anything that a game may come of
   send_wishes();
   return std::nullopt;
+}
+
+void Agent::add_to_next_noise() {
+  if (settings_.noise == NoisePart::added) {
+    send(protocol::GameReady{noise_parts_.commit()}, {});
+  }
+}
+
+// Before the first turn only: later nothing can be added.
+void Agent::reveal(const protocol::GameTerms<protocol::Received>& terms) {
+  const auto& commitment = terms.agent_commitments[rules::index(terms.seat)];
+  const auto secret = commitment ? noise_parts_.secret_for(*commitment) : std::nullopt;
+  if (secret) {
+    send(protocol::GameReveal{terms.game, *secret}, {.game = terms.game});
+  }
 }
 
 void Agent::send_wishes() {
@@ -327,11 +343,16 @@ void Agent::open_desk(const protocol::GameTerms<protocol::Received>& terms) {
 
 std::optional<End> Agent::notified(const protocol::GameStart<protocol::Received>& start) {
   open_desk(start.terms);
+  reveal(start.terms);
+  add_to_next_noise();
   return std::nullopt;
 }
 
 std::optional<End> Agent::notified(const protocol::GameSnapshot<protocol::Received>& snapshot) {
   open_desk(snapshot.terms);
+  if (snapshot.state.turn == 1) {
+    reveal(snapshot.terms);
+  }
   return std::nullopt;
 }
 

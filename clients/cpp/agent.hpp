@@ -19,12 +19,15 @@
 #include <vector>
 
 #include "clients/cpp/game_desk.hpp"
+#include "clients/cpp/noise_parts.hpp"
 #include "clients/cpp/player.hpp"
 #include "protocol/codec.hpp"
 
 namespace poolhall::client {
 
 enum class OfferPolicy : std::uint8_t { accept, decline };
+// Whether the agent adds bytes of its own to the noise (noise_parts.hpp).
+enum class NoisePart : std::uint8_t { added, none };
 
 struct AgentSettings {
   std::string name{};                       // registered under it if the token is not known yet
@@ -32,6 +35,7 @@ struct AgentSettings {
   protocol::ClientInfo software{"poolhall-cpp", "1"};
   protocol::EventDetail detail = protocol::EventDetail::summary;
   OfferPolicy offers = OfferPolicy::accept;           // of other agents' challenges
+  NoisePart noise = NoisePart::added;
   std::vector<protocol::Challenge> challenges{};      // made once logged in
   std::vector<protocol::TournamentId> tournaments{};  // joined once logged in
   std::optional<std::size_t> games{};                 // done after so many; unset: never
@@ -125,6 +129,8 @@ class Agent {
   [[nodiscard]] Result notified(const Other&) {
     return std::nullopt;
   }
+  void add_to_next_noise();
+  void reveal(const protocol::GameTerms<protocol::Received>& terms);
   void open_desk(const protocol::GameTerms<protocol::Received>& terms);
 
   AgentSettings settings_;
@@ -136,6 +142,7 @@ class Agent {
   std::int64_t next_id_ = 1;
   std::map<std::int64_t, InFlight> in_flight_;
   std::map<protocol::GameId, GameDesk> desks_;
+  NoiseParts noise_parts_;
   std::set<protocol::GameId> finished_;
   std::set<std::size_t> challenges_made_;
   std::set<std::size_t> tournaments_joined_;

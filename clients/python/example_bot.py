@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Plays one game of 8-ball against house:greedy by the ghost ball. Needs nothing but Python 3.
 Run: poolhall serve   and in another terminal: python3 clients/python/example_bot.py 127.0.0.1:7777"""
-import cmath, json, math, random, socket, sys
+import cmath, hashlib, json, math, os, random, socket, sys
 
 def ask(method, **params):
     print(json.dumps({"jsonrpc": "2.0", "id": method, "method": method, "params": params}), file=wire, flush=True)
@@ -31,10 +31,14 @@ def answer(turn, table, radius):  # points of the table are complex numbers: x a
 wire = socket.create_connection(sys.argv[1].split(":")).makefile("rw", encoding="utf-8", newline="\n")
 ask("hello", protocol=[1, 1], name="example")
 ask("register", name=f"example-{random.randrange(10**9)}")
+secret = os.urandom(32)  # added to the game's noise, so that nobody can choose it: first its hash, then itself
+ask("game.ready", commitment=hashlib.sha256(secret).hexdigest())
 ask("challenge", opponent="house:greedy")
 for message in map(json.loads, wire):
     if "error" in message: sys.exit(message["error"]["message"])
-    if message.get("method") == "game.start": start = message["params"]
+    if message.get("method") == "game.start":
+        start = message["params"]
+        ask("game.reveal", game=start["game"], secret=secret.hex())
     if message.get("method") == "game.turn": answer(message["params"], start["table"], start["physics"]["ball_radius"])
     if message.get("method") == "game.over": break
 print("game over:", "won," if message["params"]["winner"] == start["seat"] else "not won,", message["params"]["reason"])

@@ -139,6 +139,13 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   add_benchmark(*command, exit_code, "stability",
                 "extreme scenes, expected against found, and random shots and breaks",
                 bench::bench_stability);
+  add_benchmark(*command, exit_code, "noise",
+                "a million deviates of fresh keys: normal and independent", bench::bench_noise);
+  add_benchmark(*command, exit_code, "mirrored",
+                "variance of the score difference of two bots, independent and mirrored pairs",
+                bench::bench_mirrored);
+  add_benchmark(*command, exit_code, "tamper",
+                "one bit of every stored value, and whether verify finds it", bench::bench_tamper);
   add_benchmark(*command, exit_code, "lean", "what each omission saves", bench::bench_lean);
   add_faults_bench(*command, exit_code);
   add_server_bench(*command, exit_code);

@@ -73,6 +73,8 @@ client::ClientOptions client_options(const BotArguments& arguments, const HostPo
   }
   options.threads = arguments.threads;
   options.stop_signals = {SIGTERM, SIGINT};
+  // The host's own bots cannot vouch for anything against the host.
+  options.agent.noise = arguments.parent == 0 ? client::NoisePart::added : client::NoisePart::none;
   options.agent.name = arguments.name.empty() ? arguments.bot : arguments.name;
   options.agent.software = {"poolhall-" + arguments.bot, POOLHALL_VERSION};
   if (!arguments.token.empty()) {

@@ -6,6 +6,8 @@ void add_commands(CLI::App& app, int& exit_code) {
   add_bench_command(app, exit_code);
   add_bot_command(app, exit_code);
   add_export_command(app, exit_code);
+  add_fairness_command(app, exit_code);
+  add_import_command(app, exit_code);
   add_judge_command(app, exit_code);
   add_load_command(app, exit_code);
   add_replay_command(app, exit_code);

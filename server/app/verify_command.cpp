@@ -29,7 +29,9 @@ void print_summary(const std::string& database, const match::VerifyReport& repor
   for (const match::Difference& difference : report.differences) {
     const std::string turn =
         difference.turn ? fmt::format(", turn {}", *difference.turn) : std::string();
-    fmt::print("game {}{}: {}: {}\n", protocol::number(difference.game), turn, difference.field,
+    const std::string match =
+        difference.match ? fmt::format(", match {}", protocol::number(*difference.match)) : turn;
+    fmt::print("game {}{}: {}: {}\n", protocol::number(difference.game), match, difference.field,
                difference.reason);
   }
   fmt::print("{}: {} games ({} unfinished), {} turns, {} shots run again and bit for bit the same",

@@ -1,5 +1,7 @@
 #include "server/match/chain.hpp"
 
+#include <charconv>
+
 #include "server/match/sha256.hpp"
 
 namespace poolhall::match {
@@ -30,6 +32,31 @@ void add(Bytes& bytes, const storage::TermsRecord& terms) {
   bytes.integer(terms.lag_per_game.count());
 }
 
+void add(Bytes& bytes, const std::optional<Digest>& digest) {
+  bytes.presence(digest.has_value());
+  if (digest)
+    bytes.raw(*digest);
+}
+
+// Nothing for a game without such parts, so that its checksums are those of before there were any.
+// What follows a beginning never begins with this number.
+void add_parts_of_others(Bytes& bytes, const storage::GameRecord& game) {
+  constexpr std::int64_t parts_follow = 2;
+  const bool has_any = game.agent_commitments[0] || game.agent_commitments[1] ||
+                       game.shared_from.has_value() || game.agent_secrets[0] ||
+                       game.agent_secrets[1];
+  if (!has_any)
+    return;
+  bytes.integer(parts_follow);
+  for (const std::size_t seat : {0U, 1U})
+    add(bytes, game.agent_commitments[seat]);
+  bytes.presence(game.shared_from.has_value());
+  if (game.shared_from)
+    bytes.integer(number(*game.shared_from));
+  for (const std::size_t seat : {0U, 1U})
+    add(bytes, game.agent_secrets[seat]);
+}
+
 void add_beginning(Bytes& bytes, const storage::GameRecord& game) {
   bytes.integer(number(game.id)).integer(number(game.match)).integer(game.number);
   bytes.integer(game.attempt).integer(number(game.agents[0])).integer(number(game.agents[1]));
@@ -40,6 +67,7 @@ void add_beginning(Bytes& bytes, const storage::GameRecord& game) {
     bytes.real(sigma);
   bytes.raw(game.commitment).text(game.initial_state);
   bytes.text(game.physics_version).text(game.rules_version).integer(number(game.created));
+  add_parts_of_others(bytes, game);
 }
 
 void add(Bytes& bytes, const storage::ShotPart& shot) {
@@ -55,6 +83,8 @@ void add(Bytes& bytes, const storage::ShotPart& shot) {
   if (shot.call.kind == rules::Call::Kind::pocket)
     bytes.integer(physics::number(shot.call.ball)).text(physics::name(shot.call.pocket));
   bytes.text(shot.events);
+  if (shot.shared)
+    bytes.text("shared");  // a ruling's presence never looks like this text's length
 }
 
 void add(Bytes& bytes, const storage::ClockPart& clock) {
@@ -108,6 +138,29 @@ Digest seal(const storage::GameRecord& game) {
   return sha256(bytes.bytes());
 }
 
+Digest seal(const storage::MatchRecord& match) {
+  Bytes bytes;
+  bytes.integer(number(match.id)).presence(match.tournament.has_value());
+  if (match.tournament)
+    bytes.text(*match.tournament);
+  bytes.presence(match.pairing.has_value());
+  if (match.pairing)
+    bytes.integer(*match.pairing);
+  bytes.presence(match.request.has_value());
+  if (match.request)
+    bytes.text(*match.request);
+  bytes.integer(number(match.agents[0])).integer(number(match.agents[1])).integer(match.games);
+  add(bytes, match.terms);
+  bytes.fixed(match.seed).integer(static_cast<std::int64_t>(match.mirrored));
+  bytes.integer(match.over).integer(number(match.created)).presence(match.finished.has_value());
+  if (match.finished)
+    bytes.integer(number(*match.finished));
+  bytes.presence(match.challenge.has_value());
+  if (match.challenge)
+    bytes.integer(number(*match.challenge));
+  return sha256(bytes.bytes());
+}
+
 std::string to_hex(const Digest& digest) {
   constexpr std::string_view digits = "0123456789abcdef";
   std::string text;
@@ -116,6 +169,13 @@ std::string to_hex(const Digest& digest) {
     text += digits[byte & 15];
   }
   return text;
+}
+
+Digest digest_of(std::string_view hex) {
+  Digest digest{};
+  for (std::size_t i = 0; i < digest.size() && 2 * i + 1 < hex.size(); ++i)
+    std::from_chars(hex.data() + 2 * i, hex.data() + 2 * i + 2, digest[i], 16);
+  return digest;
 }
 
 }  // namespace poolhall::match

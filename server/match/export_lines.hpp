@@ -1,33 +1,29 @@
-// A database as JSON lines, for other programs. One object a line, named by its only key:
+// A database, or a part of it, as JSON lines for other programs and for import_lines. The lines are
+// described in README.md of this folder. Tokens are never exported; keys, agents' secrets and the
+// level of hidden noise not before their time.
 //
-//   {"export":{"format":1}}
-//   {"agent":{"id":1,"name":"Anna"}}
-//   {"tournament":{"id","title","status","settings","entries":[{"agent","place","withdrawn"}]}}
-//   {"match":{"id","tournament","pairing","agents":[2],"games","over","terms":{...}}}
-//   {"game":{"id","match","number","attempt","agents":[2],"breaker","terms":{...},"rack_seed",
-//            "noise":{...},"key","commitment","initial_state","physics_version","rules_version",
-//            "over","winner","reason","turns","checksum"}}
-//   {"turn":{"game","turn","action","seat","shot_id","shot":{"index","intended","executed","moved",
-//            "cue_ball","call"},"decision","refusals","clock":{...},"physics_version",
-//            "rules_version","winner","reason","checksum","state_before","ruling","events",
-//            "state_after"}}
-//
-// Agents come first, then tournaments, then the matches with their games and their turns, each in
-// the order of their ids. Absent values are null; units are the wire's, times microseconds,
-// digests hexadecimal. Until the match is over keys are null, and the noise of a game whose players
-// are not told it is "hidden" in the terms and null in the game. Tokens are never exported.
-//
-//   auto done = export_lines(*reader, [&](const std::string& line) { out << line << '\n'; });
+//   export_lines(*reader, {.tournament = "cup"},
+//                [](const std::string& line) { std::puts(line.c_str()); });
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 
 #include "server/storage/database.hpp"
 
 namespace poolhall::match {
 
+// What to export; with nothing set all of it. A part brings along what it refers to.
+struct ExportPart {
+  std::optional<std::string> tournament{};  // its matches
+  std::optional<protocol::MatchId> match{};
+  std::optional<protocol::GameId> game{};  // its match, without the match's other games
+};
+
+// The lines come without their ends. The error of a part that is not there is a conflict.
 [[nodiscard]] storage::Expected<void> export_lines(
-    storage::Reader& reader, const std::function<void(const std::string&)>& line);
+    storage::Reader& reader, const ExportPart& part,
+    const std::function<void(const std::string&)>& line);
 
 }  // namespace poolhall::match

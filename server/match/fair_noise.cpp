@@ -39,12 +39,26 @@ GameKey draw_key() {
   return key;
 }
 
-physics::ShotDeviates shot_deviates(const GameKey& key, protocol::GameId game, rules::Seat seat,
-                                    std::uint32_t shot) {
+GameKey mixed_key(const GameKey& drawn, const AgentSecrets& secrets) {
+  if (!secrets[0] && !secrets[1])
+    return drawn;
+  Bytes message;
+  for (const std::optional<Digest>& secret : secrets)
+    message.presence(secret.has_value()).raw(secret.value_or(Digest{}));
+  return hmac_sha256(drawn, message.bytes());
+}
+
+bool is_committed(const Digest& commitment, const Digest& secret) {
+  return sha256(secret) == commitment;
+}
+
+physics::ShotDeviates shot_deviates(const GameKey& key, const ShotIndex& index) {
+  const std::size_t stream = index.stream == Stream::shared ? 2 : 0;
+  const auto seat = static_cast<std::uint8_t>(stream + rules::index(index.seat));
   physics::ShotDeviates deviates{};
   for (std::size_t i = 0; i < deviates.size(); ++i) {
-    const std::uint64_t bits = random_bits(key, game, static_cast<std::uint8_t>(index(seat)), shot,
-                                           static_cast<std::uint8_t>(i));
+    const std::uint64_t bits =
+        random_bits(key, index.game, seat, index.shot, static_cast<std::uint8_t>(i));
     deviates[i] = physics::normal_quantile(physics::uniform_deviate(bits));
   }
   return deviates;
@@ -64,6 +78,11 @@ std::uint64_t rack_seed(std::uint64_t match_seed, std::uint64_t rack) {
   Bytes message;
   message.raw(tag).fixed(match_seed).fixed(rack);
   return first_64_bits(sha256(message.bytes())) >> 11;
+}
+
+std::uint64_t rack_number(std::uint32_t game, std::uint32_t attempt, storage::Mirror mirror) {
+  const std::uint64_t rack = mirror == storage::Mirror::none ? game : game / 2;
+  return rack + (std::uint64_t{attempt} << 32U);
 }
 
 Digest commit(const Committed& what) {

@@ -1,5 +1,6 @@
 #include "server/match/game.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "physics/version.hpp"
@@ -13,6 +14,8 @@ using protocol::ErrorCode;
 using storage::TurnAction;
 
 namespace {
+
+constexpr std::array<Seat, 2> both_seats{Seat::first, Seat::second};
 
 // -0 becomes 0, so that a stored number comes back with the same bits from any database.
 double plain(double x) {
@@ -56,6 +59,44 @@ tl::expected<Game, std::string> Game::open(const storage::UnfinishedGame& unfini
   game.clock_ = clock_of(game.record_, game.last_turn_);
   game.phase_ = game.record_.over ? Phase::over : Phase::due;
   return game;
+}
+
+bool Game::awaits_reveal() const {
+  if (last_turn_ || phase_ != Phase::due)
+    return false;
+  return std::any_of(both_seats.begin(), both_seats.end(), [&](Seat seat) {
+    return record_.agent_commitments[index(seat)] && !record_.agent_secrets[index(seat)];
+  });
+}
+
+protocol::Expected<std::optional<storage::GameRecord>> Game::reveal(Seat by,
+                                                                    const storage::Digest& secret) {
+  const std::optional<storage::Digest>& commitment = record_.agent_commitments[index(by)];
+  if (!commitment)
+    return tl::unexpected(error(ErrorCode::invalid_params, "/params/game",
+                                "game.start has no commitment of yours: nothing to reveal"));
+  if (!is_committed(*commitment, secret))
+    return tl::unexpected(error(ErrorCode::invalid_params, "/params/secret",
+                                "its SHA-256 is not what you have committed to"));
+  std::optional<storage::Digest>& revealed = record_.agent_secrets[index(by)];
+  if (revealed)
+    return std::nullopt;
+  if (last_turn_ || phase_ != Phase::due)
+    return tl::unexpected(error(ErrorCode::stale_turn, "/params/game",
+                                "the first turn has begun: the noise is made without it"));
+  revealed = secret;
+  seal_beginning();
+  return record_;
+}
+
+void Game::not_revealed(Seat by) {
+  record_.agent_secrets[index(by)].reset();
+  seal_beginning();
+}
+
+void Game::seal_beginning() {
+  record_.seal = seal(record_);
+  head_ = first_link(record_);
 }
 
 void Game::begin_turn(Instant now) {
@@ -185,7 +226,8 @@ Answer Game::shot(Seat by, const protocol::Shot& shot, const Arrival& arrival) {
   return Play{{.board = board_,
                .state = state_,
                .noise = record_.noise,
-               .deviates = shot_deviates(record_.key, record_.id, by, part.index),
+               .deviates = shot_deviates(mixed_key(record_.key, record_.agent_secrets),
+                                         {record_.id, by, part.index}),
                .previous = head_,
                .row = std::move(turn)}};
 }

@@ -95,8 +95,19 @@ class Game {
   [[nodiscard]] const GameClock& clock() const { return clock_; }
   [[nodiscard]] Phase phase() const { return phase_; }
   [[nodiscard]] std::uint32_t refusals() const { return refusals_; }
+  // Stored ones, by seat.
+  [[nodiscard]] const std::array<std::uint32_t, 2>& shots() const { return shots_; }
   // The last durable row.
   [[nodiscard]] const std::optional<storage::TurnRecord>& last_turn() const { return last_turn_; }
+
+  // An agent reveals what it had committed to. The row to be stored before the answer; nothing if
+  // it is stored already; or why it contributes nothing.
+  [[nodiscard]] protocol::Expected<std::optional<storage::GameRecord>> reveal(
+      Seat by, const storage::Digest& secret);
+  // It could not be stored: as if it had not been revealed.
+  void not_revealed(Seat by);
+  // Whether an agent may still reveal what it has committed to.
+  [[nodiscard]] bool awaits_reveal() const;
 
   // Starts the clock of a due turn; of any other nothing changes.
   void begin_turn(Instant now);
@@ -160,6 +171,8 @@ class Game {
   // Completes the row and begins to wait for stored().
   [[nodiscard]] Answer store(storage::TurnRecord turn, rules::GameState next,
                              std::optional<protocol::Error> error);
+  // After a change of what is fixed before the first turn.
+  void seal_beginning();
   [[nodiscard]] Answer being_stored(InFlight what, std::optional<protocol::Error> error);
 
   storage::GameRecord record_;

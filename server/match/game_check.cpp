@@ -28,12 +28,6 @@ std::string shown(const std::optional<rules::GameResult>& result) {
       result->winner ? "seat " + std::to_string(index(*result->winner)) : "nobody";
   return winner + " by " + std::string(rules::name(result->reason));
 }
-std::string shown(const protocol::NoiseParams& noise) {
-  return fmt::format("{} {} {} {} {}", noise.a, noise.b, noise.theta, noise.phi, noise.v);
-}
-std::string shown(const protocol::ShotParams& stroke) {
-  return fmt::format("{} {} {} {} {}", stroke.a, stroke.b, stroke.theta, stroke.phi, stroke.v);
-}
 std::string shown(rules::Seat seat) {
   return std::to_string(index(seat));
 }
@@ -44,6 +38,9 @@ std::string shown(storage::Micros t) {
   return std::to_string(t.count());
 }
 std::string shown(std::uint32_t n) {
+  return std::to_string(n);
+}
+std::string shown(std::uint64_t n) {
   return std::to_string(n);
 }
 std::string shown(bool flag) {
@@ -83,7 +80,8 @@ std::string difference_of(const std::optional<std::string>& stored,
 
 }  // namespace
 
-GameCheck::GameCheck(const storage::GameRecord& game) : game_(game) {}
+GameCheck::GameCheck(const storage::GameRecord& game, Around around)
+    : game_(game), around_(std::move(around)) {}
 
 Difference GameCheck::differs(std::string field, std::string reason) const {
   Difference difference{game_.id, std::nullopt, std::move(field), std::move(reason)};
@@ -99,14 +97,49 @@ GameCheck::Finding GameCheck::compare(const char* field, const T& stored, const 
   return differs(field, difference_of(stored, expected));
 }
 
+// A stroke's five numbers, or their standard deviations.
+template <class Five>
+GameCheck::Finding GameCheck::compare_each(const std::string& field, const Five& stored,
+                                           const Five& expected) const {
+  constexpr std::array<std::pair<const char*, double Five::*>, 5> columns{{{"_a", &Five::a},
+                                                                           {"_b", &Five::b},
+                                                                           {"_theta", &Five::theta},
+                                                                           {"_phi", &Five::phi},
+                                                                           {"_v", &Five::v}}};
+  for (const auto& [column, member] : columns) {
+    if (stored.*member != expected.*member)
+      return differs(field + column,
+                     fmt::format("stored {}, expected {}", stored.*member, expected.*member));
+  }
+  return std::nullopt;
+}
+
 GameCheck::Finding GameCheck::beginning() {
   board_ = preset_board(game_.terms.table, game_.terms.materials);
   if (!board_)
     return differs("table_name", "no such preset table or materials");
+  for (const auto check : {&GameCheck::noise, &GameCheck::agents_parts}) {
+    if (auto found = (this->*check)())
+      return found;
+  }
+  if (auto found = first_state())
+    return found;
+  if (auto found = place_in_match())
+    return found;
+  if (auto found = compare("seal", game_.seal, seal(game_)))
+    return found;
+  const GameClock clock(clock_settings(game_.terms));
+  balance_ = clock.balance();
+  head_ = first_link(game_);
+  key_ = mixed_key(game_.key, game_.agent_secrets);
+  return std::nullopt;
+}
+
+GameCheck::Finding GameCheck::noise() const {
   const auto noise = game_noise(game_.terms.noise, game_.key, game_.id);
   if (!noise)
     return differs("noise", "no such noise track: " + game_.terms.noise);
-  if (auto found = compare("noise_a", game_.noise, *noise))
+  if (auto found = compare_each("noise", game_.noise, *noise))
     return found;
   const storage::Digest commitment = commit({.game = game_.id,
                                              .key = game_.key,
@@ -114,28 +147,55 @@ GameCheck::Finding GameCheck::beginning() {
                                              .rack_seed = game_.rack_seed,
                                              .rack_gap = game_.terms.rack_gap,
                                              .rack_jitter = game_.terms.rack_jitter});
-  if (auto found = compare("commitment", game_.commitment, commitment))
-    return found;
+  return compare("commitment", game_.commitment, commitment);
+}
+
+GameCheck::Finding GameCheck::agents_parts() const {
+  constexpr std::array<const char*, 2> secret_columns{"first_secret", "second_secret"};
+  for (const std::size_t seat : {0U, 1U}) {
+    const auto& secret = game_.agent_secrets[seat];
+    const auto& commitment = game_.agent_commitments[seat];
+    if (secret && !(commitment && is_committed(*commitment, *secret)))
+      return differs(secret_columns[seat], "its SHA-256 is not what the agent had committed to");
+  }
+  if (!game_.shared_from)
+    return std::nullopt;
+  const bool is_pair = around_.shared_from && around_.shared_from->match == game_.match &&
+                       around_.shared_from->number == game_.number / 2 * 2;
+  return is_pair ? std::nullopt
+                 : Finding(differs("shared_from", "is not the first game of this game's pair"));
+}
+
+GameCheck::Finding GameCheck::first_state() {
   const rules::GameSettings settings = game_.settings();
   if (auto checked = rules::check_settings(settings, board_->table, board_->materials); !checked)
     return differs("rules", checked.error().reason);
   state_ = rules::new_game(settings, board_->table, board_->materials);
   state_json_ = protocol::encode_state(state_);
-  if (game_.rules_version == rules::version) {
-    if (auto found = compare("initial_state", game_.initial_state, state_json_))
-      return found;
-  } else if (auto stored = protocol::decode_state(game_.initial_state)) {
-    state_ = std::move(*stored);
-    state_json_ = game_.initial_state;
-  } else {
+  if (game_.rules_version == rules::version)
+    return compare("initial_state", game_.initial_state, state_json_);
+  auto stored = protocol::decode_state(game_.initial_state);
+  if (!stored)
     return differs("initial_state", stored.error().reason);
-  }
-  if (auto found = compare("seal", game_.seal, seal(game_)))
-    return found;
-  const GameClock clock(clock_settings(game_.terms));
-  balance_ = clock.balance();
-  head_ = first_link(game_);
+  state_ = std::move(*stored);
+  state_json_ = game_.initial_state;
   return std::nullopt;
+}
+
+// Its terms and its rack are the match's.
+GameCheck::Finding GameCheck::place_in_match() const {
+  if (!around_.match)
+    return std::nullopt;
+  const storage::MatchRecord& match = *around_.match;
+  const std::array<storage::AgentId, 2> swapped{game_.agents[1], game_.agents[0]};
+  if (game_.agents != match.agents && swapped != match.agents)
+    return differs("first_agent", "the match's agents are others");
+  if (!(game_.terms == match.terms))
+    return differs("rules", "the terms differ from those of the match");
+  if (!match.seal)
+    return std::nullopt;  // written before a match's row said whether it is mirrored
+  const std::uint64_t rack = rack_number(game_.number, game_.attempt, match.mirrored);
+  return compare("rack_seed", game_.rack_seed, rack_seed(match.seed, rack));
 }
 
 GameCheck::Finding GameCheck::turn(const TurnRecord& row) {
@@ -199,13 +259,19 @@ GameCheck::Finding GameCheck::shot(const TurnRecord& row) {
   std::uint32_t& shots = shots_[index(row.seat)];
   if (auto found = compare("shot_index", row.shot->index, ++shots))
     return found;
-  PlayOutcome outcome =
-      play({.board = board_,
-            .state = state_,
-            .noise = game_.noise,
-            .deviates = shot_deviates(game_.key, game_.id, row.seat, row.shot->index),
-            .previous = head_,
-            .row = row});
+  ShotJob job{.board = board_,
+              .state = state_,
+              .noise = game_.noise,
+              .deviates = shot_deviates(key_, {game_.id, row.seat, row.shot->index}),
+              .previous = head_,
+              .row = row};
+  if (row.shot->shared) {
+    if (!around_.shared_from)
+      return differs("shared", "the game shares its deviates with no other");
+    const storage::GameRecord& first = *around_.shared_from;
+    share_deviates(job, mixed_key(first.key, first.agent_secrets), first.id);
+  }
+  PlayOutcome outcome = play(job);
   if (const auto* error = std::get_if<protocol::Error>(&outcome))
     return differs("intended_a", "could not be played: " + error->field + ": " + error->reason);
   if (const auto* fault = std::get_if<ServerFault>(&outcome))
@@ -221,7 +287,7 @@ GameCheck::Finding GameCheck::shot(const TurnRecord& row) {
 GameCheck::Finding GameCheck::compare_rows(const TurnRecord& stored,
                                            const TurnRecord& again) const {
   if (stored.shot) {
-    if (auto found = compare("executed_a", stored.shot->executed, again.shot->executed))
+    if (auto found = compare_each("executed", stored.shot->executed, again.shot->executed))
       return found;
     if (auto found = compare("moved", stored.shot->moved, again.shot->moved))
       return found;

@@ -1,6 +1,6 @@
 // One stored game, turn by turn, against what it should be.
 //
-//   GameCheck check(game);
+//   GameCheck check(game, {match, pair});
 //   if (auto difference = check.beginning()) ...
 //   for each turn: if (auto difference = check.turn(row)) ...
 //   if (auto difference = check.end()) ...
@@ -14,6 +14,7 @@
 
 #include "rules/game_state.hpp"
 #include "server/match/clock.hpp"
+#include "server/match/fair_noise.hpp"
 #include "server/match/play_shot.hpp"
 #include "server/match/verify.hpp"
 #include "server/storage/records.hpp"
@@ -24,7 +25,13 @@ class GameCheck {
  public:
   using Finding = std::optional<Difference>;
 
-  explicit GameCheck(const storage::GameRecord& game);
+  // What a game's row and noise depend on beside itself.
+  struct Around {
+    std::optional<storage::MatchRecord> match{};
+    std::optional<storage::GameRecord> shared_from{};  // with mirrored noise
+  };
+
+  GameCheck(const storage::GameRecord& game, Around around);
 
   // The game's own row; the turns can be checked only if there is no difference here.
   [[nodiscard]] Finding beginning();
@@ -41,8 +48,15 @@ class GameCheck {
   [[nodiscard]] Difference differs(std::string field, std::string reason) const;
   template <class T>
   [[nodiscard]] Finding compare(const char* field, const T& stored, const T& expected) const;
+  template <class Five>
+  [[nodiscard]] Finding compare_each(const std::string& field, const Five& stored,
+                                     const Five& expected) const;
   [[nodiscard]] Finding compare_rows(const storage::TurnRecord& stored,
                                      const storage::TurnRecord& again) const;
+  [[nodiscard]] Finding place_in_match() const;
+  [[nodiscard]] Finding noise() const;
+  [[nodiscard]] Finding agents_parts() const;
+  [[nodiscard]] Finding first_state();
   [[nodiscard]] Finding place_in_game(const storage::TurnRecord& row) const;
   [[nodiscard]] Finding clock(const storage::TurnRecord& row, rules::Seat mover) const;
   [[nodiscard]] Finding outcome(const storage::TurnRecord& row);
@@ -54,6 +68,8 @@ class GameCheck {
   [[nodiscard]] Finding of_other_rules(const storage::TurnRecord& row);
 
   const storage::GameRecord& game_;
+  Around around_;
+  GameKey key_{};  // mixed
   std::shared_ptr<const Board> board_;
   rules::GameState state_;
   std::string state_json_;

@@ -32,6 +32,8 @@ tl::expected<storage::GameRecord, std::string> new_game_record(const GameOrder& 
   game.rack_seed = order.rack_seed;
   game.key = order.key;
   game.created = order.created;
+  game.agent_commitments = order.agent_commitments;
+  game.shared_from = order.shared_from;
   game.physics_version = physics::version;
   game.rules_version = rules::version;
 
@@ -56,6 +58,13 @@ tl::expected<storage::GameRecord, std::string> new_game_record(const GameOrder& 
                             .rack_jitter = game.terms.rack_jitter});
   game.seal = seal(game);
   return game;
+}
+
+storage::MatchRecord finished(storage::MatchRecord match, storage::UnixMicros when) {
+  match.over = true;
+  match.finished = when;
+  match.seal = seal(match);
+  return match;
 }
 
 storage::GameRecord finished(storage::GameRecord game, const storage::TurnRecord& last) {

@@ -32,12 +32,17 @@ struct GameOrder {
   std::uint64_t rack_seed = 0;
   GameKey key{};
   storage::UnixMicros created{};
+  std::array<std::optional<storage::Digest>, 2> agent_commitments{};  // by seat
+  std::optional<protocol::GameId> shared_from{};                      // with mirrored noise
 };
 
 // A game's row before its first turn, noise, commitment, rack and seal included; or why the terms
 // cannot be played.
 [[nodiscard]] tl::expected<storage::GameRecord, std::string> new_game_record(
     const GameOrder& order);
+
+// The match's row once it is over.
+[[nodiscard]] storage::MatchRecord finished(storage::MatchRecord match, storage::UnixMicros when);
 
 // The game's row once `last`, which has a result, is its last turn.
 [[nodiscard]] storage::GameRecord finished(storage::GameRecord game,

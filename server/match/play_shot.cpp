@@ -66,6 +66,11 @@ physics::Scene<double> scene_of(const rules::GameState& ready, const Board& boar
           .shot = protocol::to_physics(executed)};
 }
 
+void share_deviates(ShotJob& job, const GameKey& key, protocol::GameId first) {
+  job.deviates = shot_deviates(key, {first, job.row.seat, job.row.shot->index, Stream::shared});
+  job.row.shot->shared = true;
+}
+
 PlayOutcome play(const ShotJob& job) {
   const Board& board = *job.board;
   const storage::ShotPart& shot = *job.row.shot;

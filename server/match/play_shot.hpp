@@ -17,6 +17,7 @@
 #include "protocol/errors.hpp"
 #include "rules/game_state.hpp"
 #include "rules/referee.hpp"
+#include "server/match/fair_noise.hpp"
 #include "server/storage/records.hpp"
 
 namespace poolhall::match {
@@ -40,6 +41,10 @@ struct ShotJob {
   // the state after, the result and the checksum.
   storage::TurnRecord row;
 };
+
+// Mirrored noise: the shot gets the deviates that its pair shares, under the mixed key and the id
+// of the pair's first game.
+void share_deviates(ShotJob& job, const GameKey& key, protocol::GameId first);
 
 struct PlayedTurn {
   storage::TurnRecord record;

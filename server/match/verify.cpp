@@ -1,5 +1,6 @@
 #include "server/match/verify.hpp"
 
+#include "server/match/chain.hpp"
 #include "server/match/game_check.hpp"
 
 namespace poolhall::match {
@@ -26,24 +27,68 @@ std::optional<Difference> check_turns(storage::Reader& reader, GameCheck& check,
   return found;
 }
 
-void verify_in_snapshot(storage::Reader& reader, protocol::GameId id, VerifyReport& report) {
-  const auto game = reader.game(id);
-  if (!game || !*game) {
-    report.differences.push_back(game ? Difference{id, std::nullopt, "id", "there is no such game"}
-                                      : unreadable(id, std::nullopt, game.error()));
-    return;
+Difference no_such_game(protocol::GameId id) {
+  return {id, std::nullopt, "id", "there is no such game"};
+}
+
+std::optional<Difference> check_match(const storage::MatchRecord& match, protocol::GameId game) {
+  if (!match.seal || *match.seal == seal(match))
+    return std::nullopt;
+  return Difference{game, std::nullopt, "seal",
+                    "stored " + to_hex(*match.seal) + ", expected " + to_hex(seal(match)),
+                    match.id};
+}
+
+// The match's row, and the game that shares its deviates.
+tl::expected<GameCheck::Around, Difference> read_around(storage::Reader& reader,
+                                                        const storage::GameRecord& game) {
+  GameCheck::Around around;
+  auto match = reader.match(game.match);
+  if (!match) {
+    Difference difference = unreadable(game.id, std::nullopt, match.error());
+    difference.match = game.match;
+    return tl::unexpected(difference);
   }
-  report.unfinished += (*game)->over ? 0 : 1;
-  GameCheck check(**game);
+  if (!*match)
+    return tl::unexpected(Difference{game.id, std::nullopt, "match", "there is no such match"});
+  around.match = std::move(*match);
+  if (auto found = check_match(*around.match, game.id))
+    return tl::unexpected(*found);
+  if (!game.shared_from)
+    return around;
+  auto first = reader.game(*game.shared_from);
+  if (!first)
+    return tl::unexpected(unreadable(*game.shared_from, std::nullopt, first.error()));
+  around.shared_from = std::move(*first);
+  return around;
+}
+
+std::optional<Difference> check_game(storage::Reader& reader, const storage::GameRecord& game,
+                                     VerifyReport& report) {
+  const auto around = read_around(reader, game);
+  if (!around)
+    return around.error();
+  GameCheck check(game, *around);
   std::optional<Difference> found = check.beginning();
   if (!found)
-    found = check_turns(reader, check, id);
+    found = check_turns(reader, check, game.id);
   if (!found)
     found = check.end();
   report.turns += check.turns();
   report.shots += check.shots_played_again();
   report.other_version += check.other_version();
-  if (found)
+  return found;
+}
+
+void verify_in_snapshot(storage::Reader& reader, protocol::GameId id, VerifyReport& report) {
+  const auto game = reader.game(id);
+  if (!game || !*game) {
+    report.differences.push_back(game ? no_such_game(id)
+                                      : unreadable(id, std::nullopt, game.error()));
+    return;
+  }
+  report.unfinished += (*game)->over ? 0 : 1;
+  if (auto found = check_game(reader, **game, report))
     report.differences.push_back(std::move(*found));
 }
 

@@ -1,6 +1,6 @@
 // Checks a database against itself and against the simulator: every stored shot is run again and
-// compared bit for bit, the noise recomputed from the key, every turn judged again, checksums,
-// commitment and seal recomputed.
+// compared bit for bit, the noise recomputed from the key and the agents' parts, every turn judged
+// again, checksums, commitments and seals recomputed, and the games compared with their match.
 //
 //   VerifyReport report = verify(*reader, {}).value();
 //   if (!report.differences.empty()) say(report.differences.front());
@@ -18,9 +18,10 @@ namespace poolhall::match {
 
 struct Difference {
   protocol::GameId game{};
-  std::optional<std::uint32_t> turn{};  // unset: the game's own row
-  std::string field;                    // column
-  std::string reason;                   // one line: what is stored, what it should be
+  std::optional<std::uint32_t> turn{};       // unset: the game's own row
+  std::string field;                         // column
+  std::string reason;                        // one line: what is stored, what it should be
+  std::optional<protocol::MatchId> match{};  // set: its match's row, not the game's
 };
 
 struct VerifyReport {

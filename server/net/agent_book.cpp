@@ -23,6 +23,29 @@ std::uint64_t prefix(const TokenHash& hash) {
 
 }  // namespace
 
+void Commitments::add(const storage::Digest& commitment, const std::shared_ptr<Session>& session) {
+  if (session_.lock() != session) {
+    waiting_.clear();
+    session_ = session;
+  }
+  if (std::find(waiting_.begin(), waiting_.end(), commitment) != waiting_.end()) {
+    return;
+  }
+  if (waiting_.size() == most) {
+    waiting_.pop_front();
+  }
+  waiting_.push_back(commitment);
+}
+
+std::optional<storage::Digest> Commitments::take() {
+  if (waiting_.empty()) {
+    return std::nullopt;
+  }
+  const storage::Digest first = waiting_.front();
+  waiting_.pop_front();
+  return first;
+}
+
 Agent& AgentBook::add(storage::AgentRecord record) {
   auto agent = std::make_unique<Agent>();
   agent->record = std::move(record);

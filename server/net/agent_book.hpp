@@ -7,6 +7,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <functional>
 #include <memory>
 #include <optional>
@@ -24,11 +25,28 @@ namespace poolhall::net {
 
 class Session;
 
+// What an agent has committed itself to for its next games (game.ready): one for each, the oldest
+// first. They are of one connection: who connects again need not remember the bytes behind them.
+class Commitments {
+ public:
+  static constexpr std::size_t most = 16;
+
+  // The oldest makes room. One that is there already is not added again.
+  void add(const storage::Digest& commitment, const std::shared_ptr<Session>& session);
+  // For a game that begins.
+  [[nodiscard]] std::optional<storage::Digest> take();
+
+ private:
+  std::weak_ptr<Session> session_;
+  std::deque<storage::Digest> waiting_;
+};
+
 struct Agent {
   storage::AgentRecord record;
   std::weak_ptr<Session> session;
   std::optional<SteadyTime> last_login{};
   bool stored = true;  // false while the database has not said so
+  Commitments commitments{};
 
   [[nodiscard]] storage::AgentId id() const { return record.id; }
 };

@@ -8,6 +8,7 @@
 
 #include "physics/version.hpp"
 #include "rules/version.hpp"
+#include "server/match/chain.hpp"
 
 namespace poolhall::net {
 
@@ -119,7 +120,7 @@ void Arena::begin(const HouseBots::Settings& bots) {
     }
   }
   for (const MatchId match : matches_.challenges()) {
-    matches_.go_on(match, false);
+    matches_.go_on(match);
   }
 }
 
@@ -217,12 +218,18 @@ void Arena::handle(const Asker& asker, storage::AgentId agent, protocol::Request
     case Method::decide:
     case Method::concede:
     case Method::sync:
+    case Method::game_reveal:
       return handle_game(asker, agent, request, read_at);
+    case Method::game_ready:
+      return ready(asker, agent, std::get<protocol::GameReady>(request));
     case Method::ack:
       return acknowledge(asker, agent, std::get<protocol::Ack>(request).what);
-    default:
-      asker.refuse({ErrorCode::method_not_found, "/method",
-                    fmt::format("got {}, which this server does not do", protocol::name(method))});
+    case Method::hello:
+    case Method::register_agent:
+    case Method::login:
+    case Method::ping:
+    case Method::lag:
+      return;  // answered by the session
   }
 }
 
@@ -263,7 +270,21 @@ void Arena::handle_game(const Asker& asker, storage::AgentId agent, protocol::Re
     with_seat(
         sync->game, [&](LiveGame& game, Seat seat) { game.sync(asker, seat); },
         [&] { finished_.sync(asker, agent, sync->game); });
+  } else if (auto* reveal = std::get_if<protocol::GameReveal>(&request)) {
+    with_seat(
+        reveal->game, [&](LiveGame& game, Seat seat) { game.reveal(asker, seat, *reveal); },
+        [&] { finished_.too_late(asker, agent, reveal->game); });
   }
+}
+
+// Kept in memory alone: game.start shows whether it counts.
+void Arena::ready(const Asker& asker, storage::AgentId agent, const protocol::GameReady& request) {
+  const auto session = asker.session.lock();
+  if (session == nullptr) {
+    return;
+  }
+  book_.find(agent)->commitments.add(match::digest_of(request.commitment.text), session);
+  asker.reply(protocol::EmptyReply{});
 }
 
 void Arena::acknowledge(const Asker& asker, storage::AgentId agent, const protocol::Ended& what) {

@@ -131,6 +131,7 @@ class Arena final : public Lobby {
   // Requests.
   void handle_game(const Asker& asker, storage::AgentId agent, protocol::Request& request,
                    SteadyTime read_at);
+  void ready(const Asker& asker, storage::AgentId agent, const protocol::GameReady& request);
   void acknowledge(const Asker& asker, storage::AgentId agent, const protocol::Ended& what);
   [[nodiscard]] LiveGame* live_game(protocol::GameId game) const;
 

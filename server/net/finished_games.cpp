@@ -96,6 +96,11 @@ void FinishedGames::concede(const Asker& asker, storage::AgentId agent, protocol
   });
 }
 
+void FinishedGames::too_late(const Asker& asker, storage::AgentId agent, protocol::GameId game) {
+  find(asker, agent, game, std::nullopt,
+       [asker](const Found& found, Seat) { asker.refuse(is_over(found.game.id)); });
+}
+
 void FinishedGames::sync(const Asker& asker, storage::AgentId agent, protocol::GameId game) {
   find(asker, agent, game, std::nullopt,
        [this, asker](const Found& found, Seat seat) { reply_sync(asker, found, seat); });

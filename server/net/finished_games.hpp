@@ -27,6 +27,8 @@ class FinishedGames {
               const std::variant<protocol::Shot, protocol::Decide>& what);
   void concede(const Asker& asker, storage::AgentId agent, protocol::GameId game);
   void sync(const Asker& asker, storage::AgentId agent, protocol::GameId game);
+  // Refuses what can only be done before the end.
+  void too_late(const Asker& asker, storage::AgentId agent, protocol::GameId game);
   void acknowledge(const Asker& asker, storage::AgentId agent, protocol::GameId game);
   void acknowledge(const Asker& asker, storage::AgentId agent, protocol::MatchId match);
 

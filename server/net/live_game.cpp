@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/match/chain.hpp"
 #include "server/storage/failpoint.hpp"
 
 namespace poolhall::net {
@@ -80,6 +81,9 @@ void LiveGame::go_on() {
   if (game_.phase() == Phase::due && !halted_ && (!awaiting_agents_ || all_needed_are_in())) {
     awaiting_agents_ = false;
     arrival_deadline_.cancel();
+    if (awaits_reveals()) {
+      return;
+    }
     begin_turn();
   }
   take_waiting();
@@ -164,7 +168,9 @@ void LiveGame::take(GameRequest request) {
         {ErrorCode::shutting_down, "", "the server stops; ask again when it is back", record().id});
     return;
   }
-  match::Answer answer = ask(request);
+  // Nobody is played out of its part in the noise by a quick shot.
+  const bool waits = may_be_revealed() && !std::holds_alternative<protocol::Concede>(request.what);
+  match::Answer answer = waits ? match::Answer{match::Later{}} : ask(request);
   act(std::move(answer), request);
 }
 
@@ -207,6 +213,28 @@ void LiveGame::play(match::ShotJob job, const Asker& asker) {
   flag_.cancel();
   asker_ = asker;
   storage::failpoint(storage::Failpoint::after_receive);
+  if (pair_) {
+    play_in_pair(std::move(job));
+  } else {
+    run(std::move(job));
+  }
+}
+
+// The clock stands while the shot waits for that of the other game.
+void LiveGame::play_in_pair(match::ShotJob job) {
+  const SharedNoise::ShotKey key{job.row.seat, job.row.shot->index};
+  pair_->noise->submit(
+      pair_->side, key, [self = shared_from_this(), job](SharedNoise::Run how) mutable {
+        const storage::GameRecord& first =
+            self->pair_->first ? self->pair_->first->record() : self->record();
+        if (how == SharedNoise::Run::shared) {
+          match::share_deviates(job, match::mixed_key(first.key, first.agent_secrets), first.id);
+        }
+        self->run(std::move(job));
+      });
+}
+
+void LiveGame::run(match::ShotJob job) {
   boost::asio::post(services_.workers, [self = shared_from_this(), job = std::move(job)] {
     match::PlayOutcome outcome = match::play(job);
     storage::failpoint(storage::Failpoint::after_simulate);
@@ -271,6 +299,9 @@ void LiveGame::written(const storage::Expected<void>& stored) {
   game_.stored();
   tell(what);
   if (game_.phase() == Phase::over) {
+    if (pair_) {
+      pair_->noise->leave(pair_->side);
+    }
     const auto self = shared_from_this();  // on_over may let go of this game
     tell_over();
     take_waiting();
@@ -388,6 +419,64 @@ void LiveGame::go_on_after_suspension() {
 void LiveGame::halt() {
   halted_ = true;
   flag_.cancel();
+  if (pair_) {
+    pair_->noise->leave(pair_->side);
+  }
+}
+
+bool LiveGame::may_be_revealed() const {
+  return reveals_being_stored_ > 0 || (!reveals_over_ && game_.awaits_reveal());
+}
+
+// The first turn waits for those who have committed themselves, and for what is being stored.
+bool LiveGame::awaits_reveals() {
+  if (may_be_revealed() && !reveals_over_ && !reveal_deadline_.is_set()) {
+    reveal_deadline_ =
+        services_.deadlines.at(steady_clock::now() + services_.limits.reveal_deadline, [this] {
+          reveals_over_ = true;
+          go_on();
+        });
+  }
+  return may_be_revealed();
+}
+
+void LiveGame::reveal(const Asker& asker, Seat seat, const protocol::GameReveal& request) {
+  if (halted_) {
+    asker.refuse(
+        {ErrorCode::shutting_down, "", "the server stops; ask again when it is back", record().id});
+    return;
+  }
+  const auto row = game_.reveal(seat, match::digest_of(request.secret.text));
+  if (!row) {
+    asker.refuse(row.error());
+    return;
+  }
+  if (!*row && reveals_being_stored_ == 0) {
+    asker.reply(protocol::GameReply{record().id});
+    return;
+  }
+  ++reveals_being_stored_;
+  const auto posted = services_.writer.post(
+      [game = record()](storage::Database& database) { return database.update_game(game); },
+      [self = shared_from_this(), asker, seat](const storage::Expected<void>& stored) {
+        self->revealed(asker, seat, stored);
+      });
+  if (posted != storage::Posted::accepted) {
+    revealed(asker, seat,
+             tl::unexpected(storage::StorageError{storage::StorageFault::busy,
+                                                  "the database takes nothing at the moment"}));
+  }
+}
+
+void LiveGame::revealed(const Asker& asker, Seat seat, const storage::Expected<void>& stored) {
+  --reveals_being_stored_;
+  if (stored) {
+    asker.reply(protocol::GameReply{record().id});
+  } else {
+    game_.not_revealed(seat);
+    asker.refuse({ErrorCode::internal, "", stored.error().reason, record().id});
+  }
+  go_on();
 }
 
 }  // namespace poolhall::net

@@ -19,6 +19,7 @@
 #include "server/net/archive.hpp"
 #include "server/net/notices.hpp"
 #include "server/net/session.hpp"
+#include "server/net/shared_noise.hpp"
 #include "server/storage/writer.hpp"
 
 namespace poolhall::net {
@@ -58,6 +59,13 @@ struct GameRequest {
   SteadyTime read_at;
 };
 
+// A game's place in a pair with mirrored noise.
+struct PairPlace {
+  std::shared_ptr<SharedNoise> noise;
+  PairSide side = PairSide::first;
+  std::shared_ptr<const LiveGame> first;  // unset: it is the first itself
+};
+
 class LiveGame : public std::enable_shared_from_this<LiveGame> {
  public:
   LiveGame(match::Game game, GameCard card, GameServices& services, Start start);
@@ -66,6 +74,7 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   void begin();
   void take(GameRequest request);
   void sync(const Asker& asker, Seat seat) const;
+  void reveal(const Asker& asker, Seat seat, const protocol::GameReveal& request);
   // A session of this player's is new: all that a bot without memory needs.
   void agent_came(Seat seat);
   // Whether this is the answer to the turn that waits for it.
@@ -73,6 +82,8 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   void forfeit(Seat loser);
   // Ends it as void, after what is in flight.
   void call_off();
+  // Before begin().
+  void join_pair(PairPlace place) { pair_ = std::move(place); }
   // No new turns; what is in flight finishes.
   void halt();
   // While the database takes nothing no clock runs and no flag falls.
@@ -91,6 +102,8 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   [[nodiscard]] match::Answer ask(const GameRequest& request);
   void act(match::Answer answer, const GameRequest& request);
   void play(match::ShotJob job, const Asker& asker);
+  void play_in_pair(match::ShotJob job);
+  void run(match::ShotJob job);
   void settle(match::PlayOutcome outcome);
   void write(match::Store what, const Asker& asker);
   void post_write();
@@ -108,6 +121,9 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   void take_waiting();
   void await_agents();
   void start_waited_enough();
+  [[nodiscard]] bool may_be_revealed() const;
+  [[nodiscard]] bool awaits_reveals();
+  void revealed(const Asker& asker, Seat seat, const storage::Expected<void>& stored);
   [[nodiscard]] bool all_needed_are_in() const;
   void begin_turn();
   void watch_flag();
@@ -125,7 +141,11 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   bool halted_ = false;
   bool called_off_ = false;
   bool suspended_ = false;
+  bool reveals_over_ = false;  // who has not revealed by now contributes nothing
+  std::uint32_t reveals_being_stored_ = 0;
+  std::optional<PairPlace> pair_{};
   Deadline arrival_deadline_;
+  Deadline reveal_deadline_;
   Deadline flag_;
   Deadline write_retry_;
   Asker asker_;                        // of what is in flight

@@ -54,7 +54,9 @@ struct MatchOrder {
   std::uint32_t games = 1;
   GameTerms terms{};
   std::uint64_t seed = 0;  // of the racks; game i of the match uses seed and i
-  bool mirrored = false;   // games 2k and 2k + 1 share their rack: both use seed and k
+  // Of games 2k and 2k + 1: both use the rack of seed and k. With mirrored noise they are played at
+  // the same time.
+  storage::Mirror mirrored = storage::Mirror::none;
 };
 
 struct GameOutcome {

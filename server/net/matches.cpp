@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/match/chain.hpp"
+
 namespace poolhall::net {
 
 using protocol::Error;
@@ -24,10 +26,20 @@ Id take_next(Id& next) {
   return taken;
 }
 
-// Racks of games played again are drawn anew.
-std::uint64_t rack_number(std::uint32_t number, std::uint32_t attempt, bool mirrored) {
-  const std::uint64_t rack = mirrored ? number / 2 : number;
-  return rack + (static_cast<std::uint64_t>(attempt) << 32U);
+std::uint32_t attempts_at(const std::vector<storage::GameRecord>& games, std::uint32_t number) {
+  return static_cast<std::uint32_t>(
+      std::count_if(games.begin(), games.end(),
+                    [number](const storage::GameRecord& game) { return game.number == number; }));
+}
+
+storage::Expected<void> add_all(storage::Database& database,
+                                const std::vector<storage::GameRecord>& games) {
+  for (const storage::GameRecord& game : games) {
+    if (auto added = database.add_game(game); !added) {
+      return added;
+    }
+  }
+  return {};
 }
 
 }  // namespace
@@ -37,8 +49,6 @@ Matches::Matches(GameServices& services, storage::Counters& ids, Outside outside
 
 void Matches::start(const MatchPlan& plan, Started started) {
   LiveMatch match;
-  match.mirrored = plan.mirrored;
-  match.game_goes_on = true;
   storage::MatchRecord& record = match.record;
   record.id = take_next(ids_.match);
   record.tournament = plan.tournament;
@@ -49,20 +59,23 @@ void Matches::start(const MatchPlan& plan, Started started) {
   record.games = plan.games;
   record.terms = plan.terms;
   record.seed = plan.seed;
+  record.mirrored = plan.mirrored;
   record.created = storage::unix_now();
-  const auto game = draw_game(match, 0);
-  if (!game) {
-    started(tl::unexpected(Error{ErrorCode::invalid_params, "/params", game.error()}));
+  record.seal = match::seal(record);
+  const auto games = draw_next(match, 0);
+  if (!games) {
+    started(tl::unexpected(Error{ErrorCode::invalid_params, "/params", games.error()}));
     return;
   }
+  match.going_on = static_cast<std::uint32_t>(games->size());
   const MatchId id = record.id;
   matches_.emplace(id, match);
   const auto posted = services_.writer.post(
-      [record, game = *game](storage::Database& database) -> storage::Expected<void> {
+      [record, games = *games](storage::Database& database) -> storage::Expected<void> {
         auto added = database.add_match(record);
-        return added ? database.add_game(game) : added;
+        return added ? add_all(database, games) : added;
       },
-      [this, id, game = *game, started](const storage::Expected<void>& stored) {
+      [this, id, games = *games, started](const storage::Expected<void>& stored) {
         if (!stored) {
           matches_.erase(id);
           started(tl::unexpected(Error{ErrorCode::internal, "",
@@ -70,7 +83,7 @@ void Matches::start(const MatchPlan& plan, Started started) {
           return;
         }
         started(id);
-        launch({game, {}, {}}, matches_.at(id).record, Start::fresh);
+        launch_all(id, games);
       });
   if (posted != storage::Posted::accepted) {
     matches_.erase(id);
@@ -94,18 +107,14 @@ tl::expected<void, std::string> Matches::resume(const storage::UnfinishedGame& u
     return tl::unexpected(
         fmt::format("game {} belongs to no unfinished match", number(unfinished.game.id)));
   }
-  found->second.game_goes_on = true;
-  launch(unfinished, found->second.record, Start::resume);
+  ++found->second.going_on;
+  launch(unfinished, found->second, Start::resume);
   return {};
 }
 
-void Matches::go_on(MatchId match, bool mirrored) {
+void Matches::go_on(MatchId match) {
   const auto found = matches_.find(match);
-  if (found == matches_.end()) {
-    return;
-  }
-  found->second.mirrored = mirrored;
-  if (!found->second.game_goes_on) {
+  if (found != matches_.end()) {
     begin_next(found->second);
   }
 }
@@ -144,9 +153,7 @@ std::vector<GameOutcome> Matches::outcomes(const LiveMatch& match) const {
 
 std::optional<std::uint32_t> Matches::next_number(const LiveMatch& match) const {
   for (std::uint32_t number = 0; number < match.record.games; ++number) {
-    const auto attempts =
-        std::count_if(match.games.begin(), match.games.end(),
-                      [number](const storage::GameRecord& game) { return game.number == number; });
+    const std::uint32_t attempts = attempts_at(match.games, number);
     const bool scored =
         std::any_of(match.games.begin(), match.games.end(), [&](const storage::GameRecord& game) {
           return game.number == number && outcome_of(match.record, game);
@@ -158,14 +165,12 @@ std::optional<std::uint32_t> Matches::next_number(const LiveMatch& match) const 
   return std::nullopt;
 }
 
-tl::expected<storage::GameRecord, std::string> Matches::draw_game(const LiveMatch& match,
-                                                                  std::uint32_t number) {
+tl::expected<storage::GameRecord, std::string> Matches::draw_game(
+    const LiveMatch& match, std::uint32_t number, std::optional<protocol::GameId> shared_from) {
   match::GameOrder order;
   order.match = match.record.id;
   order.number = number;
-  order.attempt = static_cast<std::uint32_t>(
-      std::count_if(match.games.begin(), match.games.end(),
-                    [number](const storage::GameRecord& game) { return game.number == number; }));
+  order.attempt = attempts_at(match.games, number);
   // The breaker sits in the first seat, and the agents change seats from game to game.
   order.agents = match.record.agents;
   if (number % 2 == 1) {
@@ -173,11 +178,17 @@ tl::expected<storage::GameRecord, std::string> Matches::draw_game(const LiveMatc
   }
   order.terms = match.record.terms;
   order.breaker = Seat::first;
-  order.rack_seed =
-      match::rack_seed(match.record.seed, rack_number(number, order.attempt, match.mirrored));
+  order.rack_seed = match::rack_seed(
+      match.record.seed, match::rack_number(number, order.attempt, match.record.mirrored));
   order.key = match::draw_key();
   order.created = storage::unix_now();
   order.id = ids_.game;
+  order.shared_from = shared_from;
+  for (const std::size_t seat : {0U, 1U}) {
+    if (Agent* agent = services_.book.find(order.agents[seat])) {
+      order.agent_commitments[seat] = agent->commitments.take();
+    }
+  }
   auto record = match::new_game_record(order);
   if (record) {
     take_next(ids_.game);
@@ -188,7 +199,7 @@ tl::expected<storage::GameRecord, std::string> Matches::draw_game(const LiveMatc
 void Matches::set_pace(const std::string& tournament, Pace pace) {
   paces_[tournament] = pace;
   for (auto& [id, match] : matches_) {
-    if (match.record.tournament == tournament && !match.game_goes_on) {
+    if (match.record.tournament == tournament) {
       begin_next(match);
     }
   }
@@ -199,7 +210,27 @@ Matches::Pace Matches::pace_of(const LiveMatch& match) const {
   return found == paces_.end() ? Pace::steady : found->second;
 }
 
+tl::expected<Matches::Drawn, std::string> Matches::draw_next(const LiveMatch& match,
+                                                             std::uint32_t number) {
+  const bool is_pair = match.record.mirrored == storage::Mirror::noise && number % 2 == 0 &&
+                       number + 1 < match.record.games &&
+                       attempts_at(match.games, number) + attempts_at(match.games, number + 1) == 0;
+  Drawn drawn;
+  const auto shared_from = is_pair ? std::optional(ids_.game) : std::nullopt;
+  for (std::uint32_t i = 0; i < (is_pair ? 2U : 1U); ++i) {
+    auto game = draw_game(match, number + i, shared_from);
+    if (!game) {
+      return tl::unexpected(game.error());
+    }
+    drawn.push_back(std::move(*game));
+  }
+  return drawn;
+}
+
 void Matches::begin_next(LiveMatch& match) {
+  if (match.going_on > 0 || match.finishing) {
+    return;
+  }
   const auto number = next_number(match);
   const Pace pace = pace_of(match);
   if (!number || pace == Pace::ended) {
@@ -209,22 +240,25 @@ void Matches::begin_next(LiveMatch& match) {
   if (pace == Pace::held) {
     return;
   }
-  const auto game = draw_game(match, *number);
-  if (!game) {
+  const auto games = draw_next(match, *number);
+  if (!games) {
     spdlog::error("match {}: no game {}: {}", protocol::number(match.record.id), *number,
-                  game.error());
+                  games.error());
     return;
   }
-  match.game_goes_on = true;
-  post([game = *game](storage::Database& database) { return database.add_game(game); },
-       [this, id = match.record.id, game = *game] {
-         launch({game, {}, {}}, matches_.at(id).record, Start::fresh);
-       },
-       fmt::format("game {}", protocol::number(game->id)));
+  match.going_on = static_cast<std::uint32_t>(games->size());
+  post([games = *games](storage::Database& database) { return add_all(database, games); },
+       [this, id = match.record.id, games = *games] { launch_all(id, games); },
+       fmt::format("game {}", protocol::number(games->front().id)));
 }
 
-void Matches::launch(const storage::UnfinishedGame& unfinished, const storage::MatchRecord& match,
-                     Start start) {
+void Matches::launch_all(MatchId match, const Drawn& games) {
+  for (const storage::GameRecord& game : games) {
+    launch({game, {}, {}}, matches_.at(match), Start::fresh);
+  }
+}
+
+void Matches::launch(const storage::UnfinishedGame& unfinished, LiveMatch& match, Start start) {
   auto game = match::Game::open(unfinished);
   if (!game) {
     spdlog::error("game {} cannot go on: {}", protocol::number(unfinished.game.id), game.error());
@@ -232,12 +266,35 @@ void Matches::launch(const storage::UnfinishedGame& unfinished, const storage::M
   }
   const std::array<std::string, 2> names{services_.book.name_of(unfinished.game.agents[0]),
                                          services_.book.name_of(unfinished.game.agents[1])};
-  const auto wire_id = match.tournament ? outside_.wire_id(*match.tournament) : std::nullopt;
+  const storage::MatchRecord& record = match.record;
+  const auto wire_id = record.tournament ? outside_.wire_id(*record.tournament) : std::nullopt;
   const GameCard card = card_of(game->board(), names, wire_id);
   spdlog::info("game {} of match {}: {} against {}{}", protocol::number(unfinished.game.id),
-               protocol::number(match.id), names[0], names[1],
+               protocol::number(record.id), names[0], names[1],
                start == Start::resume ? ", goes on" : "");
-  outside_.launch(std::make_shared<LiveGame>(std::move(*game), card, services_, start));
+  const auto live = std::make_shared<LiveGame>(std::move(*game), card, services_, start);
+  join_pair(match, live);
+  outside_.launch(live);
+}
+
+void Matches::join_pair(LiveMatch& match, const std::shared_ptr<LiveGame>& game) {
+  const auto partner = match.partner.lock();
+  const auto shared_from = game->record().shared_from;
+  if (!shared_from) {
+    return;
+  }
+  match.partner = game;
+  if (partner == nullptr || partner->record().shared_from != shared_from ||
+      partner->record().over) {
+    return;
+  }
+  const bool is_first = game->record().id == *shared_from;
+  const auto& first = is_first ? game : partner;
+  const auto& second = is_first ? partner : game;
+  const auto noise = std::make_shared<SharedNoise>(
+      std::array{first->game().shots(), second->game().shots()}, services_.deadlines);
+  first->join_pair({noise, PairSide::first, nullptr});
+  second->join_pair({noise, PairSide::second, first});
 }
 
 void Matches::game_over(const LiveGame& live) {
@@ -247,7 +304,7 @@ void Matches::game_over(const LiveGame& live) {
     return;
   }
   LiveMatch& match = found->second;
-  match.game_goes_on = false;
+  --match.going_on;
   match.games.push_back(game);
   if (const auto outcome = outcome_of(match.record, game)) {
     outside_.on_game_over(match.record, *outcome);
@@ -256,10 +313,11 @@ void Matches::game_over(const LiveGame& live) {
 }
 
 void Matches::finish(LiveMatch& match) {
-  match.game_goes_on = true;  // nothing begins any more
+  match.finishing = true;  // nothing begins any more
+  match.record = match::finished(match.record, storage::unix_now());
   const MatchId id = match.record.id;
-  post([id, when = storage::unix_now()](
-           storage::Database& database) { return database.finish_match(id, when); },
+  post([record =
+            match.record](storage::Database& database) { return database.update_match(record); },
        [this, id] {
          const LiveMatch over = std::move(matches_.extract(id).mapped());
          outside_.tell_over(over.record, over.games);

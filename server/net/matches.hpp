@@ -28,7 +28,7 @@ struct MatchPlan {
   std::optional<std::uint32_t> pairing{};
   std::optional<std::string> request{};  // what a challenge was asked with
   std::optional<protocol::ChallengeId> challenge{};
-  bool mirrored = false;
+  storage::Mirror mirrored = storage::Mirror::none;
 };
 
 class Matches {
@@ -56,7 +56,7 @@ class Matches {
   // Launches the game that was going on.
   [[nodiscard]] tl::expected<void, std::string> resume(const storage::UnfinishedGame& unfinished);
   // Starts the next game of a restored match, unless one goes on.
-  void go_on(MatchId match, bool mirrored);
+  void go_on(MatchId match);
   void game_over(const LiveGame& game);
   void set_pace(const std::string& tournament, Pace pace);
 
@@ -77,19 +77,27 @@ class Matches {
  private:
   struct LiveMatch {
     storage::MatchRecord record;
-    bool mirrored = false;
-    bool game_goes_on = false;
+    std::uint32_t going_on = 0;  // games; two with mirrored noise
+    bool finishing = false;
     std::vector<storage::GameRecord> games;  // that are over, void ones too
+    std::weak_ptr<LiveGame> partner;         // of mirrored noise: the one launched last
   };
+  using Drawn = std::vector<storage::GameRecord>;
 
   [[nodiscard]] std::vector<GameOutcome> outcomes(const LiveMatch& match) const;
   [[nodiscard]] std::optional<std::uint32_t> next_number(const LiveMatch& match) const;
-  [[nodiscard]] tl::expected<storage::GameRecord, std::string> draw_game(const LiveMatch& match,
-                                                                         std::uint32_t number);
+  [[nodiscard]] tl::expected<storage::GameRecord, std::string> draw_game(
+      const LiveMatch& match, std::uint32_t number, std::optional<protocol::GameId> shared_from);
+  // The game with this number; with mirrored noise the pair, if none of it was played yet.
+  [[nodiscard]] tl::expected<Drawn, std::string> draw_next(const LiveMatch& match,
+                                                           std::uint32_t number);
   void begin_next(LiveMatch& match);
   [[nodiscard]] Pace pace_of(const LiveMatch& match) const;
   void finish(LiveMatch& match);
-  void launch(const storage::UnfinishedGame& game, const storage::MatchRecord& match, Start start);
+  void launch_all(MatchId match, const Drawn& games);
+  void launch(const storage::UnfinishedGame& game, LiveMatch& match, Start start);
+  // Both games of a pair with mirrored noise, once both go on.
+  void join_pair(LiveMatch& match, const std::shared_ptr<LiveGame>& game);
   void post(storage::Writer::Work work, std::function<void()> then, std::string what);
 
   GameServices& services_;

@@ -25,6 +25,17 @@ RawJson events_for(const storage::ShotPart& shot, const Side& reader) {
   return RawJson{summary.size() <= reader.event_bytes ? std::move(summary) : std::string{"[]"}};
 }
 
+std::array<std::optional<protocol::Hex256>, 2> hex_pair(
+    const std::array<std::optional<storage::Digest>, 2>& digests) {
+  std::array<std::optional<protocol::Hex256>, 2> pair;
+  for (const std::size_t seat : {0U, 1U}) {
+    if (digests[seat]) {
+      pair[seat] = protocol::Hex256{match::to_hex(*digests[seat])};
+    }
+  }
+  return pair;
+}
+
 protocol::Legal legal_in(const rules::GameState& state) {
   if (state.kind == rules::TurnKind::decision) {
     return protocol::LegalDecisions{state.options};
@@ -80,6 +91,7 @@ protocol::GameTerms<Outgoing> terms_of(const storage::GameRecord& game, const Ga
   terms.clock = clock_settings_of(game.terms);
   terms.max_refusals = game.terms.max_refusals;
   terms.commitment = {match::to_hex(game.commitment)};
+  terms.agent_commitments = hex_pair(game.agent_commitments);
   return terms;
 }
 
@@ -185,6 +197,7 @@ protocol::GameSeeds seeds_of(const storage::GameRecord& game) {
   seeds.game = game.id;
   seeds.key = {match::to_hex(game.key)};
   seeds.rack_seed = game.rack_seed;
+  seeds.agent_secrets = hex_pair(game.agent_secrets);
   return seeds;
 }
 

@@ -21,11 +21,24 @@ GameTerms terms_of(const settings::TournamentSettings& settings) {
   terms.table = settings.table;
   terms.materials = settings.physics;
   terms.noise = settings.noise;
+  terms.noise_hidden = settings.noise_hidden;
   terms.rack_gap = settings.rack_gap;
   terms.clock = settings.clock.game;
   terms.increment = settings.clock.increment;
   terms.shot_cap = settings.clock.shot_cap;
   return terms;
+}
+
+storage::Mirror mirror_of(settings::MirroredGames mirrored) {
+  switch (mirrored) {
+    case settings::MirroredGames::rack:
+      return storage::Mirror::rack;
+    case settings::MirroredGames::noise:
+      return storage::Mirror::noise;
+    case settings::MirroredGames::none:
+      break;
+  }
+  return storage::Mirror::none;
 }
 
 TournamentEntry entry_of(const std::string& tournament, const settings::EntrySettings& settings) {
@@ -233,7 +246,7 @@ MatchOrder TournamentDriver::order_of(const Pairing& pairing) const {
   order.games = file_.settings.games_per_match;
   order.terms = terms_of(file_.settings);
   order.seed = tournament::pairing_seed(seed_, pairing.number);
-  order.mirrored = file_.settings.mirrored == settings::MirroredGames::rack;
+  order.mirrored = mirror_of(file_.settings.mirrored);
   return order;
 }
 

@@ -233,7 +233,7 @@ void Tournaments::start_match(const MatchOrder& order) {
     return;
   }
   if (const auto match = matches_.find(order.tournament, order.pairing)) {
-    matches_.go_on(*match, order.mirrored);
+    matches_.go_on(*match);
     return;
   }
   const Agent* first = services_.book.named(order.agents[0]);

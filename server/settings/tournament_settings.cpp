@@ -27,19 +27,32 @@ struct Rules {
   static std::string write(Value value) { return fmt::format("\"{}\"", rules::name(value)); }
 };
 
+std::string_view name(MirroredGames mirrored) {
+  switch (mirrored) {
+    case MirroredGames::rack:
+      return "rack";
+    case MirroredGames::noise:
+      return "noise";
+    case MirroredGames::none:
+      break;
+  }
+  return "none";
+}
+
 struct Mirrored {
   using Value = MirroredGames;
-  static std::string expected() { return R"(one of "rack", "none")"; }
+  static std::string expected() { return R"(one of "rack", "noise", "none")"; }
   static std::optional<Value> read(const Node& node) {
-    const auto word = OneOf{{"rack", "none"}}.read(node);
+    const auto word = OneOf{{"rack", "noise", "none"}}.read(node);
     if (!word) {
       return std::nullopt;
     }
+    if (*word == "noise") {
+      return MirroredGames::noise;
+    }
     return *word == "rack" ? MirroredGames::rack : MirroredGames::none;
   }
-  static std::string write(Value value) {
-    return value == MirroredGames::rack ? "\"rack\"" : "\"none\"";
-  }
+  static std::string write(Value value) { return fmt::format("\"{}\"", name(value)); }
 };
 
 struct PaceKind {
@@ -148,8 +161,10 @@ Keys<TournamentSettings> tournament_key_table() {
   keys.add(
       "mirrored", Mirrored{}, [](auto& s) -> auto& { return s.mirrored; });
   keys.add(
-      "noise", OneOf{{"none", "low", "olympiad", "high"}},
+      "noise", OneOf{{"none", "low", "olympiad", "high", "variable"}},
       [](auto& s) -> auto& { return s.noise; });
+  keys.add(
+      "noise_hidden", Flag{}, [](auto& s) -> auto& { return s.noise_hidden; });
   keys.add(
       "table", Preset{"the name of a table preset", physics::preset_table_names()},
       [](auto& s) -> auto& { return s.table; });
@@ -276,12 +291,12 @@ Expected<void> check_together(const TournamentSettings& settings, const Node& ro
   if (settings.name.empty()) {
     return refuse(file, root.at, "name: nothing came, expected " + Name::expected());
   }
-  if (settings.mirrored == MirroredGames::rack && settings.games_per_match % 2 != 0) {
+  if (settings.mirrored != MirroredGames::none && settings.games_per_match % 2 != 0) {
     const Node* games = root.find("games_per_match");
     return refuse(file, games == nullptr ? root.at : games->at,
                   fmt::format("games_per_match: {} came, expected an even number, since mirrored "
-                              "= \"rack\" plays every rack twice",
-                              settings.games_per_match));
+                              "= \"{}\" plays every rack twice",
+                              settings.games_per_match, name(settings.mirrored)));
   }
   return {};
 }

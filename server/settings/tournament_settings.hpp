@@ -37,8 +37,9 @@ struct EntrySettings {
 };
 
 enum class MirroredGames : std::uint8_t {
-  none,  // every game has a rack of its own
-  rack,  // two games in a row have the same rack, each player breaks once
+  none,   // every game has a rack of its own
+  rack,   // two games in a row have the same rack, each player breaks once
+  noise,  // and the same noise, as far as nobody can know it beforehand; played at the same time
 };
 
 struct GameClock {
@@ -70,7 +71,8 @@ struct TournamentSettings {
   rules::RuleSet rules = rules::RuleSet::eight_ball;
   std::uint32_t games_per_match = 2;
   MirroredGames mirrored = MirroredGames::rack;
-  std::string noise = "olympiad";    // preset
+  std::string noise = "olympiad";    // preset, or variable
+  bool noise_hidden = false;         // agents are not told the level
   std::string table = "olympiad";    // preset
   std::string physics = "olympiad";  // preset of materials
   double rack_gap = 0;               // m

@@ -103,8 +103,9 @@ class Database : public Reader {
   [[nodiscard]] virtual Expected<void> withdraw_entry(std::string_view tournament,
                                                       AgentId agent) = 0;
   [[nodiscard]] virtual Expected<void> add_match(const MatchRecord& match) = 0;
-  // From then on both agents have to be told, until they acknowledge it.
-  [[nodiscard]] virtual Expected<void> finish_match(MatchId match, UnixMicros when) = 0;
+  // Stores again whether it is over, when, and the seal. Once it is over both agents have to be
+  // told, until they acknowledge it.
+  [[nodiscard]] virtual Expected<void> update_match(const MatchRecord& match) = 0;
   // Likewise all that entered. Given again, the later table counts.
   [[nodiscard]] virtual Expected<void> finish_tournament(
       std::string_view tournament, const std::vector<FinalStanding>& standings) = 0;

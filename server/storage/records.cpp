@@ -24,6 +24,12 @@ constexpr std::array<std::pair<TurnAction, std::string_view>, 7> turn_actions{{
     {TurnAction::void_game, "void_game"},
 }};
 
+constexpr std::array<std::pair<Mirror, std::string_view>, 3> mirrors{{
+    {Mirror::none, "none"},
+    {Mirror::rack, "rack"},
+    {Mirror::noise, "noise"},
+}};
+
 template <class Names, class Value>
 std::string_view name_in(const Names& names, Value value) {
   for (const auto& [candidate, text] : names) {
@@ -54,6 +60,13 @@ std::string_view name(TournamentStatus status) {
 }
 std::optional<TournamentStatus> tournament_status(std::string_view name) {
   return value_in<TournamentStatus>(tournament_statuses, name);
+}
+
+std::string_view name(Mirror mirror) {
+  return name_in(mirrors, mirror);
+}
+std::optional<Mirror> mirror(std::string_view name) {
+  return value_in<Mirror>(mirrors, name);
 }
 
 std::string_view name(TurnAction action) {

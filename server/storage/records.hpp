@@ -100,6 +100,16 @@ struct TermsRecord {
   friend bool operator==(const TermsRecord&, const TermsRecord&) = default;
 };
 
+// What the games 2k and 2k + 1 of a match share.
+enum class Mirror : std::uint8_t {
+  none,
+  rack,   // the rack
+  noise,  // the rack, and deviates of shots that both had asked for before either was run
+};
+
+[[nodiscard]] std::string_view name(Mirror mirror);
+[[nodiscard]] std::optional<Mirror> mirror(std::string_view name);
+
 struct MatchRecord {
   MatchId id{};
   std::optional<std::string> tournament{};  // unset: a challenge
@@ -109,11 +119,12 @@ struct MatchRecord {
   std::uint32_t games = 1;
   TermsRecord terms;
   std::uint64_t seed = 0;  // of the racks
-  bool mirrored = false;   // games 2k and 2k + 1 share their rack
+  Mirror mirrored = Mirror::none;
   bool over = false;
   UnixMicros created{};
   std::optional<UnixMicros> finished{};
   std::optional<protocol::ChallengeId> challenge{};  // by which its agents called it
+  std::optional<Digest> seal{};  // match::seal over all of the above; unset before schema 2
 
   friend bool operator==(const MatchRecord&, const MatchRecord&) = default;
 };
@@ -134,6 +145,12 @@ struct GameRecord {
   std::string physics_version;
   std::string rules_version;
   UnixMicros created{};
+  // By seat: SHA-256 of the 32 bytes that the agent had committed to when the game was made.
+  std::array<std::optional<Digest>, 2> agent_commitments{};
+  // Mirrored noise: the pair's first game, whose key gives the shared deviates.
+  std::optional<GameId> shared_from{};
+  // By seat: those bytes, if they were revealed before the first turn.
+  std::array<std::optional<Digest>, 2> agent_secrets{};
   // What grows with the game.
   bool over = false;
   std::optional<rules::GameResult> result{};  // set when over
@@ -179,7 +196,8 @@ struct ShotPart {
   bool moved = false;  // noise made it impossible, so it was moved to the nearest possible one
   std::optional<physics::Vec2<double>> cue_ball{};  // m, as placed by the player
   rules::Call call;
-  std::string events;  // JSON
+  std::string events;   // JSON
+  bool shared = false;  // its deviates are those of the pair: GameRecord::shared_from
 
   friend bool operator==(const ShotPart&, const ShotPart&) = default;
 };

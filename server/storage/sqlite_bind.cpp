@@ -101,10 +101,11 @@ Binder& Binder::operator<<(const MatchRecord& match) {
   *this << match.request << number(match.agents[0]) << number(match.agents[1])
         << std::int64_t{match.games};
   put(match.terms);
-  return *this << static_cast<std::int64_t>(match.seed) << std::int64_t{match.mirrored}
+  return *this << static_cast<std::int64_t>(match.seed) << static_cast<std::int64_t>(match.mirrored)
                << std::int64_t{match.over} << match.created << match.finished
                << (match.challenge ? std::optional{protocol::number(*match.challenge)}
-                                   : std::nullopt);
+                                   : std::nullopt)
+               << match.seal;
 }
 
 Binder& Binder::operator<<(const GameRecord& game) {
@@ -116,8 +117,14 @@ Binder& Binder::operator<<(const GameRecord& game) {
         << game.noise.v << game.commitment << game.initial_state << game.physics_version
         << game.rules_version << game.created << std::int64_t{game.over};
   put(game.result);
-  return *this << std::int64_t{game.turns} << game.head << std::int64_t{game.acknowledged[0]}
-               << std::int64_t{game.acknowledged[1]} << game.finished << game.seal;
+  *this << std::int64_t{game.turns} << game.head << std::int64_t{game.acknowledged[0]}
+        << std::int64_t{game.acknowledged[1]} << game.finished << game.seal
+        << game.agent_commitments[0] << game.agent_commitments[1];
+  if (game.shared_from)
+    *this << number(*game.shared_from);
+  else
+    *this << std::nullopt;
+  return *this << game.agent_secrets[0] << game.agent_secrets[1];
 }
 
 void Binder::put(const ShotPart& shot) {
@@ -160,9 +167,11 @@ Binder& Binder::operator<<(const TurnRecord& turn) {
         << clock.left[1] << clock.lag_left[0] << clock.lag_left[1] << turn.stored
         << turn.physics_version << turn.rules_version << turn.checksum << turn.state_before
         << turn.state_after << turn.ruling;
-  if (turn.shot)
-    return *this << turn.shot->events;
-  return *this << std::nullopt;
+  if (!turn.shot)
+    return *this << std::nullopt << std::nullopt;
+  *this << turn.shot->events;
+  // Null unless shared: as in rows that were written before there was such a thing.
+  return turn.shot->shared ? *this << std::int64_t{1} : *this << std::nullopt;
 }
 
 }  // namespace poolhall::storage

@@ -68,7 +68,7 @@ class SqliteDatabase final : public Database {
   Expected<void> add_entry(const EntryRecord& entry) override;
   Expected<void> withdraw_entry(std::string_view tournament, AgentId agent) override;
   Expected<void> add_match(const MatchRecord& match) override;
-  Expected<void> finish_match(MatchId match, UnixMicros when) override;
+  Expected<void> update_match(const MatchRecord& match) override;
   Expected<void> finish_tournament(std::string_view tournament,
                                    const std::vector<FinalStanding>& standings) override;
   Expected<void> acknowledge_match(MatchId match, AgentId agent) override;
@@ -394,15 +394,16 @@ Expected<void> SqliteDatabase::add_match(const MatchRecord& match) {
   return insert(insert_sql("matches", match_columns), match);
 }
 
-Expected<void> SqliteDatabase::finish_match(MatchId match, UnixMicros when) {
-  auto finished = change("UPDATE matches SET over=1, finished=? WHERE id=?", when, number(match));
-  if (!finished)
-    return finished;
+Expected<void> SqliteDatabase::update_match(const MatchRecord& match) {
+  auto updated = change("UPDATE matches SET over=?, finished=?, seal=? WHERE id=?",
+                        std::int64_t{match.over}, match.finished, match.seal, number(match.id));
+  if (!updated || !match.over)
+    return updated;
   return run(
       "INSERT OR IGNORE INTO untold_matches(agent, match) "
       "SELECT first_agent, id FROM matches WHERE id=?1 "
       "UNION SELECT second_agent, id FROM matches WHERE id=?1",
-      number(match));
+      number(match.id));
 }
 
 Expected<void> SqliteDatabase::finish_tournament(std::string_view tournament,
@@ -448,10 +449,10 @@ Expected<void> SqliteDatabase::update_game(const GameRecord& game) {
   }
   return change(
       "UPDATE games SET over=?, winner=?, reason=?, turns=?, head=?, first_acknowledged=?, "
-      "second_acknowledged=?, finished=?, seal=? WHERE id=?",
+      "second_acknowledged=?, finished=?, seal=?, first_secret=?, second_secret=? WHERE id=?",
       std::int64_t{game.over}, winner, reason, std::int64_t{game.turns}, game.head,
       std::int64_t{game.acknowledged[0]}, std::int64_t{game.acknowledged[1]}, game.finished,
-      game.seal, number(game.id));
+      game.seal, game.agent_secrets[0], game.agent_secrets[1], number(game.id));
 }
 
 Expected<void> SqliteDatabase::append_turn(const TurnRecord& turn) {

@@ -80,6 +80,12 @@ std::optional<std::string> Columns::optional_text() {
   return text();
 }
 
+std::optional<Digest> Columns::optional_digest() {
+  if (skip_null())
+    return std::nullopt;
+  return digest();
+}
+
 AgentRecord Columns::agent() {
   AgentRecord agent;
   agent.id = AgentId{integer()};
@@ -165,13 +171,17 @@ MatchRecord Columns::match() {
   match.games = count();
   match.terms = terms();
   match.seed = static_cast<std::uint64_t>(integer());
-  match.mirrored = flag();
+  const std::int64_t mirrored = integer();
+  if (mirrored < 0 || mirrored > static_cast<std::int64_t>(Mirror::noise))
+    fail("0, 1 or 2");
+  match.mirrored = static_cast<Mirror>(mirrored);
   match.over = flag();
   match.created = date();
   if (!skip_null())
     match.finished = date();
   if (!skip_null())
     match.challenge = protocol::ChallengeId{integer()};
+  match.seal = optional_digest();
   return match;
 }
 
@@ -216,6 +226,12 @@ GameRecord Columns::game() {
   if (!skip_null())
     game.finished = date();
   game.seal = digest();
+  for (std::optional<Digest>& commitment : game.agent_commitments)
+    commitment = optional_digest();
+  if (!skip_null())
+    game.shared_from = GameId{integer()};
+  for (std::optional<Digest>& secret : game.agent_secrets)
+    secret = optional_digest();
   return game;
 }
 
@@ -345,6 +361,11 @@ TurnRecord Columns::turn() {
   } else {
     ++next_;
     fail("null in a turn without a shot");
+  }
+  if (!skip_null()) {
+    if (integer() != 1 || !turn.shot)
+      fail("1 in a shot with shared deviates, else null");
+    turn.shot->shared = true;
   }
   return turn;
 }

@@ -31,14 +31,15 @@ inline constexpr std::string_view entry_columns =
 inline constexpr std::string_view match_columns =
     "id,tournament,pairing,request,first_agent,second_agent,games,rules,table_name,materials,noise,"
     "noise_hidden,rack_gap,rack_jitter,clock_us,increment_us,shot_cap_us,max_refusals,"
-    "lag_per_turn_us,lag_per_game_us,seed,mirrored,over,created,finished,challenge";
+    "lag_per_turn_us,lag_per_game_us,seed,mirrored,over,created,finished,challenge,seal";
 inline constexpr std::string_view standing_columns = "rank,agent,points,games,wins,losses,draws";
 inline constexpr std::string_view game_columns =
     "id,match,number,attempt,first_agent,second_agent,rules,table_name,materials,noise,"
     "noise_hidden,rack_gap,rack_jitter,clock_us,increment_us,shot_cap_us,max_refusals,"
     "lag_per_turn_us,lag_per_game_us,breaker,rack_seed,noise_key,noise_a,noise_b,noise_theta,"
     "noise_phi,noise_v,commitment,initial_state,physics_version,rules_version,created,over,winner,"
-    "reason,turns,head,first_acknowledged,second_acknowledged,finished,seal";
+    "reason,turns,head,first_acknowledged,second_acknowledged,finished,seal,first_commitment,"
+    "second_commitment,shared_from,first_secret,second_secret";
 inline constexpr std::string_view result_columns =
     "id,match,first_agent,second_agent,rules,breaker,winner,reason,finished";
 inline constexpr std::string_view turn_columns =
@@ -46,7 +47,7 @@ inline constexpr std::string_view turn_columns =
     "intended_v,executed_a,executed_b,executed_theta,executed_phi,executed_v,moved,cue_ball_x,"
     "cue_ball_y,call_kind,call_ball,call_pocket,decision,winner,reason,refusals,used_us,"
     "forgiven_us,first_left_us,second_left_us,first_lag_left_us,second_lag_left_us,stored,"
-    "physics_version,rules_version,checksum,state_before,state_after,ruling,events";
+    "physics_version,rules_version,checksum,state_before,state_after,ruling,events,shared";
 
 // "INSERT INTO table(columns) VALUES(?,?,...)"
 [[nodiscard]] std::string insert_sql(std::string_view table, std::string_view columns);
@@ -118,6 +119,7 @@ class Columns {
  private:
   [[nodiscard]] SQLite::Column take();
   [[nodiscard]] std::optional<std::string> optional_text();
+  [[nodiscard]] std::optional<Digest> optional_digest();
   [[nodiscard]] TermsRecord terms();
   [[nodiscard]] std::optional<rules::GameResult> result();
   [[nodiscard]] std::optional<ShotPart> shot();

@@ -198,7 +198,18 @@ CREATE TABLE final_standings(
 ) STRICT, WITHOUT ROWID;
 )sql";
 
-constexpr std::array<std::string_view, 2> all{first, second};
+// The agents' parts in the noise, mirrored noise, and a checksum over a match's row.
+constexpr std::string_view fair_noise = R"sql(
+ALTER TABLE matches ADD COLUMN seal BLOB;
+ALTER TABLE games ADD COLUMN first_commitment BLOB;
+ALTER TABLE games ADD COLUMN second_commitment BLOB;
+ALTER TABLE games ADD COLUMN shared_from INTEGER REFERENCES games;
+ALTER TABLE games ADD COLUMN first_secret BLOB;
+ALTER TABLE games ADD COLUMN second_secret BLOB;
+ALTER TABLE turns ADD COLUMN shared INTEGER;
+)sql";
+
+constexpr std::array<std::string_view, 3> all{first, second, fair_noise};
 
 }  // namespace
 

@@ -42,6 +42,15 @@ bool bench_speed(const BenchOptions& options, std::ostream& out);
 // Coverage of the ratings' intervals and error rates of the sequential test, simulated.
 bool bench_ratings(const BenchOptions& options, std::ostream& out);
 
+// A million deviates of fresh keys: whether they are normal and independent.
+bool bench_noise(const BenchOptions& options, std::ostream& out);
+
+// The variance of the score difference of two bots, in independent and in mirrored pairs.
+bool bench_mirrored(const BenchOptions& options, std::ostream& out);
+
+// One bit of every stored value, and bits anywhere in the file: whether verify finds them.
+bool bench_tamper(const BenchOptions& options, std::ostream& out);
+
 // Random games of both rule sets, and what must hold of every game.
 bool bench_rules(const BenchOptions& options, std::ostream& out);
 

@@ -8,7 +8,7 @@
 #include <iterator>
 #include <sstream>
 
-#include "../match/played_game.hpp"
+#include "tests/support/played_game.hpp"
 #include "protocol/json_value.hpp"
 #include "server/storage/sqlite_database.hpp"
 #include "tests/support/raw_sqlite.hpp"
@@ -67,7 +67,7 @@ TEST_F(StoredGames, differ_with_exit_code_1_and_the_first_difference_named) {
                        first_shot_);
   const Ran ran = run("verify --db " + file_.string());
   EXPECT_EQ(ran.exit_code, 1);
-  EXPECT_THAT(ran.out, HasSubstr("game 1, turn " + first_shot_ + ": executed_a: stored "));
+  EXPECT_THAT(ran.out, HasSubstr("game 1, turn " + first_shot_ + ": executed_v: stored "));
 }
 
 TEST_F(StoredGames, cannot_be_verified_without_a_file_which_is_exit_code_2) {
@@ -119,7 +119,8 @@ TEST_F(StoredGames, are_exported_with_their_keys_once_the_match_is_over) {
   {
     auto database = storage::open_sqlite(file_).value();
     match::must(database->begin());
-    match::must(database->finish_match(protocol::MatchId{1}, storage::UnixMicros{1}));
+    const auto record = match::must(database->match(protocol::MatchId{1})).value();
+    match::must(database->update_match(match::finished(record, storage::UnixMicros{1})));
     match::must(database->commit());
   }
   EXPECT_THAT(run("export --db " + file_.string()).out,

@@ -7,10 +7,10 @@
 #include <sstream>
 
 #include "physics/simulator.hpp"
-#include "played_game.hpp"
 #include "protocol/events_json.hpp"
 #include "protocol/state_json.hpp"
 #include "server/storage/sqlite_database.hpp"
+#include "tests/support/played_game.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace poolhall::match {

@@ -3,10 +3,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "played_game.hpp"
 #include "server/match/chain.hpp"
 #include "server/storage/sqlite_database.hpp"
 #include "server/storage/sqlite_rows.hpp"
+#include "tests/support/played_game.hpp"
 #include "tests/support/raw_sqlite.hpp"
 #include "tests/support/temporary_directory.hpp"
 

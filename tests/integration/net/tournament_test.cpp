@@ -20,7 +20,7 @@ net::MatchOrder order_of(std::uint32_t games) {
   order.agents = {"one", "two"};
   order.games = games;
   order.seed = 7;
-  order.mirrored = true;
+  order.mirrored = storage::Mirror::rack;
   return order;
 }
 

@@ -89,6 +89,7 @@ bool WireClient::receive() {
                         : ::recv(socket_, buffer, sizeof buffer, 0);
   if (got > 0) {
     input_.append(buffer, static_cast<std::size_t>(got));
+    heard_.append(buffer, static_cast<std::size_t>(got));
   }
   return got > 0;
 }

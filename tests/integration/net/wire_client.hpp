@@ -40,6 +40,9 @@ class WireClient {
   [[nodiscard]] std::string read_all();
   [[nodiscard]] int descriptor() const { return socket_; }
   void close();
+  // All bytes that have come so far, and those of them that are no line yet.
+  [[nodiscard]] const std::string& heard() const { return heard_; }
+  [[nodiscard]] const std::string& rest() const { return input_; }
 
   // Sends the request; its reply is read by reply_to or call.
   std::int64_t send(const protocol::Request& request);
@@ -100,6 +103,7 @@ class WireClient {
   int socket_ = -1;
   std::unique_ptr<Tls> tls_;
   std::string input_;
+  std::string heard_;
   std::int64_t next_id_ = 1;
   std::map<std::string, protocol::Method> methods_;
   std::deque<protocol::NotificationMessage> notifications_;

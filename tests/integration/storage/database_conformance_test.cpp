@@ -148,7 +148,7 @@ TEST_P(DatabaseConformance, refuses_a_second_match_of_a_pairing_or_a_request) {
 TEST_P(DatabaseConformance, refuses_to_change_what_is_not_there) {
   EXPECT_EQ(fault_in_transaction([&] { return database_->update_game(sample_game(9, 0)); }),
             StorageFault::conflict);
-  EXPECT_EQ(fault_in_transaction([&] { return database_->finish_match(MatchId{9}, {}); }),
+  EXPECT_EQ(fault_in_transaction([&] { return database_->update_match(sample_match(9)); }),
             StorageFault::conflict);
 }
 
@@ -176,6 +176,7 @@ TEST_P(DatabaseConformance, lists_a_finished_game_for_each_agent_until_it_acknow
   game.head = digest_of(7);
   game.acknowledged = {true, false};  // seat 0 is agent 2
   game.finished = UnixMicros{99};
+  game.agent_secrets[1] = digest_of(9);
   in_transaction([&] { return database_->update_game(game); });
   EXPECT_EQ(database_->game(GameId{1}).value(), game);
   EXPECT_THAT(database_->unacknowledged_by(AgentId{1}, 9).value(), ElementsAre(game));
@@ -212,12 +213,14 @@ TEST_P(DatabaseConformance, lists_results_of_scored_games_as_they_ended) {
 
 TEST_P(DatabaseConformance, finishes_matches_and_lists_the_others) {
   EXPECT_EQ(database_->unfinished_matches().value().size(), 1U);
-  in_transaction([&] { return database_->finish_match(MatchId{1}, UnixMicros{77}); });
+  MatchRecord finished = sample_match(1);
+  finished.over = true;
+  finished.finished = UnixMicros{77};
+  finished.seal = digest_of(61);
+  in_transaction([&] { return database_->update_match(finished); });
   EXPECT_THAT(database_->unfinished_matches().value(), IsEmpty());
   const auto matches = database_->matches_of("demo").value();
-  ASSERT_EQ(matches.size(), 1U);
-  EXPECT_TRUE(matches[0].over);
-  EXPECT_EQ(matches[0].finished, UnixMicros{77});
+  EXPECT_THAT(matches, ElementsAre(finished));
 }
 
 TEST_P(DatabaseConformance, lists_the_latest_finished_matches_until_each_agent_acknowledged) {
@@ -226,8 +229,13 @@ TEST_P(DatabaseConformance, lists_the_latest_finished_matches_until_each_agent_a
   later.request.reset();
   in_transaction([&] { return database_->add_match(later); });
   EXPECT_THAT(database_->untold_matches(AgentId{1}, 9).value(), IsEmpty());
-  in_transaction([&] { return database_->finish_match(MatchId{1}, UnixMicros{77}); });
-  in_transaction([&] { return database_->finish_match(MatchId{2}, UnixMicros{78}); });
+  const auto over = [](MatchRecord match, std::int64_t when) {
+    match.over = true;
+    match.finished = UnixMicros{when};
+    return match;
+  };
+  in_transaction([&] { return database_->update_match(over(sample_match(1), 77)); });
+  in_transaction([&] { return database_->update_match(over(later, 78)); });
   in_transaction([&] { return database_->acknowledge_match(MatchId{1}, AgentId{2}); });
   const auto ids = [&](AgentId agent, std::size_t most) {
     std::vector<MatchId> found;

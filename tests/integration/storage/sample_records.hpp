@@ -46,9 +46,10 @@ inline MatchRecord sample_match(std::int64_t id) {
           .games = 4,
           .terms = sample_terms(),
           .seed = 0xfedcba9876543210,
-          .mirrored = true,
+          .mirrored = Mirror::noise,
           .created = UnixMicros{11},
-          .challenge = protocol::ChallengeId{77}};
+          .challenge = protocol::ChallengeId{77},
+          .seal = digest_of(60)};
 }
 
 inline GameRecord sample_game(std::int64_t id, std::uint32_t number) {
@@ -69,6 +70,10 @@ inline GameRecord sample_game(std::int64_t id, std::uint32_t number) {
   game.rules_version = "r1";
   game.created = UnixMicros{12};
   game.seal = digest_of(100);
+  game.agent_commitments = {std::nullopt, digest_of(140)};
+  game.agent_secrets = {digest_of(160), std::nullopt};
+  if (id == 2)
+    game.shared_from = GameId{1};
   return game;
 }
 
@@ -86,7 +91,8 @@ inline TurnRecord sample_turn(std::int64_t game, std::uint32_t number) {
       .moved = true,
       .cue_ball = physics::Vec2<double>{0.25, 0.125},
       .call = {rules::Call::Kind::pocket, physics::BallId{9}, physics::PocketId::side_right},
-      .events = "[{\"t\":0}]"};
+      .events = "[{\"t\":0}]",
+      .shared = true};
   turn.ruling = "{\"legal\":true}";
   turn.state_after = "{\"after\":1}";
   turn.refusals = 2;

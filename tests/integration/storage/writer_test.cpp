@@ -259,8 +259,8 @@ class FullDisk final : public Database {
   Expected<void> add_match(const MatchRecord& match) override {
     return database_->add_match(match);
   }
-  Expected<void> finish_match(MatchId id, UnixMicros when) override {
-    return database_->finish_match(id, when);
+  Expected<void> update_match(const MatchRecord& match) override {
+    return database_->update_match(match);
   }
   Expected<void> finish_tournament(std::string_view id,
                                    const std::vector<FinalStanding>& standings) override {

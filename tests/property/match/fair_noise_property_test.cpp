@@ -19,7 +19,7 @@ std::vector<double> deviates(std::size_t shots) {
   std::vector<double> all;
   for (std::uint32_t shot = 1; shot <= shots; ++shot)
     for (const double deviate :
-         shot_deviates(pinned_key(), protocol::GameId{1}, rules::Seat::first, shot))
+         shot_deviates(pinned_key(), {protocol::GameId{1}, rules::Seat::first, shot}))
       all.push_back(deviate);
   return all;
 }

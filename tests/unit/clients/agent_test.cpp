@@ -37,7 +37,10 @@ class FakeOutside : public Outside {
 
 class AgentTest : public testing::Test {
  protected:
-  AgentTest() { settings_.name = "tester"; }
+  AgentTest() {
+    settings_.name = "tester";
+    settings_.noise = NoisePart::none;
+  }
 
   Agent& agent() {
     if (!agent_) {
@@ -113,6 +116,37 @@ TEST_F(AgentTest, LogsInWithTheSameTokenAfterALostReplyToRegister) {
   EXPECT_EQ(std::get<protocol::Login>(last().request).token, *first.token);
   ASSERT_FALSE(error(ErrorCode::unauthorized));
   EXPECT_EQ(*std::get<protocol::Register>(last().request).token, *first.token);
+}
+
+TEST_F(AgentTest, AddsItsPartToTheNoiseOfAGame) {
+  settings_.noise = NoisePart::added;
+  log_in();
+  const auto ready = std::get<protocol::GameReady>(last().request);
+  auto start = test_support::scripted_start(GameId{17});
+  start.terms.agent_commitments[rules::index(start.terms.seat)] = ready.commitment;
+  ASSERT_FALSE(notify(start));
+  const auto next = std::get<protocol::GameReady>(last().request);
+  EXPECT_NE(next.commitment, ready.commitment);
+  outside_.lines.pop_back();
+  const auto reveal = std::get<protocol::GameReveal>(last().request);
+  EXPECT_EQ(reveal.game, GameId{17});
+  EXPECT_EQ(sha256_of(reveal.secret), ready.commitment);
+}
+
+TEST_F(AgentTest, RevealsNothingForACommitmentThatIsNotItsOwn) {
+  settings_.noise = NoisePart::added;
+  log_in();
+  auto start = test_support::scripted_start(GameId{17});
+  start.terms.agent_commitments[rules::index(start.terms.seat)] = {std::string(64, '1')};
+  const std::size_t before = outside_.lines.size();
+  ASSERT_FALSE(notify(start));
+  EXPECT_EQ(outside_.lines.size(), before + 1);  // the next game.ready
+}
+
+TEST(NoiseParts, AreHashedAsPublished) {
+  // FIPS 180-4's SHA-256 of 32 zero bytes, as by Python's hashlib.
+  EXPECT_EQ(sha256_of({std::string(64, '0')}).text,
+            "66687aadf862bd776c8fc18b8e9f8e20089714856ee233b3902a591d0d5f2925");
 }
 
 TEST_F(AgentTest, ATakenNameIsTheEnd) {

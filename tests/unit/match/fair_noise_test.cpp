@@ -26,8 +26,8 @@ TEST(FairNoise, gives_the_deviates_that_another_program_computes_from_the_key) {
                                     0.995503909705422, -1.8921879142244924};
   const std::array<double, 5> third{-1.875900049848158, -0.3225650457448677, -1.0677498637401064,
                                     0.1880457073527023, 0.7133657693511858};
-  const auto d = shot_deviates(counting_key(), GameId{17}, rules::Seat::first, 1);
-  const auto e = shot_deviates(counting_key(), GameId{17}, rules::Seat::second, 3);
+  const auto d = shot_deviates(counting_key(), {GameId{17}, rules::Seat::first, 1});
+  const auto e = shot_deviates(counting_key(), {GameId{17}, rules::Seat::second, 3});
   for (std::size_t i = 0; i < 5; ++i) {
     EXPECT_NEAR(d[i], first[i], 1e-15 * 4) << i;
     EXPECT_NEAR(e[i], third[i], 1e-15 * 4) << i;
@@ -81,7 +81,7 @@ TEST(FairNoise, shares_no_deviate_between_games_seats_shots_and_keys) {
     for (const std::int64_t game : {1, 256})
       for (const rules::Seat seat : {rules::Seat::first, rules::Seat::second})
         for (const std::uint32_t shot : {1U, 256U, 65536U})
-          for (const double deviate : shot_deviates(key, GameId{game}, seat, shot))
+          for (const double deviate : shot_deviates(key, {GameId{game}, seat, shot}))
             seen.insert(deviate);
   EXPECT_EQ(seen.size(), 2U * 2 * 2 * 3 * 5);
 }

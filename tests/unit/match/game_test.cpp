@@ -110,7 +110,7 @@ TEST(Game, adds_the_noise_of_its_key) {
   terms.noise = "olympiad";
   Game game = game_of(terms);
   const Store store = settled(game, game.shot(Seat::first, break_shot(), at(1)));
-  const auto deviates = shot_deviates(game.record().key, id, Seat::first, 1);
+  const auto deviates = shot_deviates(game.record().key, {id, Seat::first, 1});
   EXPECT_EQ(store.turn.shot->executed.phi, 90 + 0.125 * deviates[3]);
   EXPECT_EQ(store.turn.shot->executed.v, 5 + 0.075 * deviates[4]);
 }

@@ -123,7 +123,7 @@ TEST_F(TournamentDriverTest, OrdersMatchesOnTheTermsOfTheFile) {
   const MatchOrder& order = host_.orders.front();
   EXPECT_THAT(order.agents, ElementsAre("mine", "Anna"));
   EXPECT_EQ(order.games, 2u);
-  EXPECT_TRUE(order.mirrored);
+  EXPECT_EQ(order.mirrored, storage::Mirror::rack);
   EXPECT_EQ(order.terms.rules, rules::RuleSet::nine_ball);
   EXPECT_EQ(order.terms.noise, "low");
   EXPECT_EQ(order.terms.clock, 30s);

@@ -1,6 +1,5 @@
 // Games played to the end (or to a number of turns) by two players who shoot at random (softly,
-// so that a game lasts), through
-// match::Game and a real database, one turn a transaction.
+// so that a game lasts), through match::Game and a real database, one turn a transaction.
 //
 //   PlayedGame played(*database, order_of(GameId{1}), 7);
 //   played.play(40);
@@ -12,7 +11,9 @@
 #include <stdexcept>
 
 #include "rules/referee.hpp"
+#include "server/match/chain.hpp"
 #include "server/match/game.hpp"
+#include "server/match/sha256.hpp"
 
 namespace poolhall::match {
 
@@ -32,7 +33,7 @@ inline GameOrder order_of(std::int64_t id) {
   order.agents = {storage::AgentId{1}, storage::AgentId{2}};
   order.terms.rack_gap = 1e-4;
   order.terms.increment = storage::Micros{1'000'000};
-  order.rack_seed = rack_seed(99, static_cast<std::uint64_t>(id));
+  order.rack_seed = rack_seed(99, order.number);
   for (std::size_t i = 0; i < order.key.size(); ++i)
     order.key[i] = static_cast<std::uint8_t>(7 * i + static_cast<std::size_t>(id));
   order.created = storage::UnixMicros{1'000};
@@ -50,10 +51,17 @@ inline void add_players(storage::Database& database) {
   storage::MatchRecord match;
   match.id = protocol::MatchId{1};
   match.agents = {storage::AgentId{1}, storage::AgentId{2}};
-  match.games = 4;
+  match.games = 6;
+  match.terms = order_of(1).terms;
+  match.seed = 99;
+  match.seal = seal(match);
   must(database.add_match(match));
   must(database.commit());
 }
+
+// Another match of the same two, nine-ball with mirrored noise, with a pair of games in which both
+// agents added their part to the noise and every shot was shared; both went on for so many turns.
+inline void add_mirrored_pair(storage::Database& database, std::uint32_t turns);
 
 class PlayedGame {
  public:
@@ -61,6 +69,17 @@ class PlayedGame {
       : database_(database), random_(seed), game_(begin(database, order)) {}
 
   [[nodiscard]] Game& game() { return game_; }
+
+  // From now on every shot has the deviates that this game's pair shares.
+  void share_with(const storage::GameRecord& first) { first_ = first; }
+
+  // The agent of this seat reveals what it had committed to.
+  void reveal(Seat seat, const storage::Digest& secret) {
+    const auto row = game_.reveal(seat, secret);
+    must(database_.begin());
+    must(database_.update_game(row.value().value()));
+    must(database_.commit());
+  }
 
   // At most so many turns; then the player to move concedes.
   void play(std::uint32_t turns) {
@@ -78,8 +97,11 @@ class PlayedGame {
   }
 
   void carry_out(Answer answer) {
-    if (auto* play_it = std::get_if<Play>(&answer))
+    if (auto* play_it = std::get_if<Play>(&answer)) {
+      if (first_)
+        share_deviates(play_it->job, mixed_key(first_->key, first_->agent_secrets), first_->id);
       answer = game_.settle(match::play(play_it->job), now_);
+    }
     if (auto* write = std::get_if<Store>(&answer)) {
       must(database_.begin());
       must(database_.append_turn(write->turn));
@@ -150,10 +172,50 @@ class PlayedGame {
   }
 
   storage::Database& database_;
+  std::optional<storage::GameRecord> first_{};
   std::mt19937_64 random_;
   Game game_;
   Instant now_{1'000'000};
   std::uint32_t shot_id_ = 0;
 };
+
+inline void add_mirrored_pair(storage::Database& database, std::uint32_t turns) {
+  storage::MatchRecord match;
+  match.id = protocol::MatchId{2};
+  match.agents = {storage::AgentId{1}, storage::AgentId{2}};
+  match.games = 2;
+  match.terms.rules = rules::RuleSet::nine_ball;
+  match.terms.noise = "variable";
+  match.terms.shot_cap = storage::Micros{60'000'000};
+  match.seed = 0xfedcba9876543210;
+  match.mirrored = storage::Mirror::noise;
+  match.request = "\"again\"";
+  match.created = storage::UnixMicros{2'000};
+  match.seal = seal(match);
+  must(database.begin());
+  must(database.add_match(match));
+  must(database.commit());
+  const std::array<storage::Digest, 2> secrets{storage::Digest{1, 2}, storage::Digest{3, 4}};
+  std::optional<storage::GameRecord> first;
+  for (const std::uint32_t number : {0U, 1U}) {
+    GameOrder order = order_of(101 + number);
+    order.match = match.id;
+    order.number = number;
+    order.terms = match.terms;
+    order.rack_seed = rack_seed(match.seed, rack_number(number, 0, match.mirrored));
+    order.shared_from = protocol::GameId{101};
+    order.agent_commitments = {sha256(secrets[0]), sha256(secrets[1])};
+    PlayedGame played(database, order, 17 + number);
+    played.reveal(Seat::first, secrets[0]);
+    played.reveal(Seat::second, secrets[1]);
+    if (!first)
+      first = played.game().record();
+    played.share_with(*first);
+    played.play(turns);
+  }
+  must(database.begin());
+  must(database.update_match(finished(match, storage::UnixMicros{3'000})));
+  must(database.commit());
+}
 
 }  // namespace poolhall::match
