@@ -169,7 +169,8 @@ void LiveGame::take(GameRequest request) {
     return;
   }
   // Nobody is played out of its part in the noise by a quick shot.
-  const bool waits = may_be_revealed() && !std::holds_alternative<protocol::Concede>(request.what);
+  const bool waits = game_.phase() == Phase::due && may_be_revealed() &&
+                     !std::holds_alternative<protocol::Concede>(request.what);
   match::Answer answer = waits ? match::Answer{match::Later{}} : ask(request);
   act(std::move(answer), request);
 }
@@ -333,7 +334,8 @@ void LiveGame::not_written(const storage::StorageError& error) {
 }
 
 void LiveGame::take_waiting() {
-  while (!waiting_.empty() && !in_flight()) {
+  const auto noise_is_made = [this] { return game_.phase() != Phase::due || !may_be_revealed(); };
+  while (!waiting_.empty() && !in_flight() && noise_is_made()) {
     const GameRequest request = std::move(waiting_.front());
     waiting_.erase(waiting_.begin());
     take(request);
