@@ -1,10 +1,12 @@
 // Pages of games and turns.
 #include <array>
+#include <optional>
 
 #include "protocol/state_json.hpp"
 #include "protocol/table_json.hpp"
 #include "server/match/chain.hpp"
 #include "server/match/play_shot.hpp"
+#include "server/match/secrets.hpp"
 #include "server/web/page_parts.hpp"
 #include "server/web/pages.hpp"
 
@@ -12,9 +14,19 @@ namespace poolhall::web {
 
 namespace {
 
-void write_noise(JsonWriter& out, const storage::GameRecord& game) {
+// What the web's reader may be told of a match's noise.
+storage::Expected<match::Secrets> secrets_of(Reader& reader,
+                                             const std::optional<storage::MatchRecord>& match,
+                                             const Horizon& horizon) {
+  if (!match || !match->finished || !horizon.sees(*match->finished)) {
+    return match::Secrets::kept;
+  }
+  return match::secrets_of(reader, *match);
+}
+
+void write_noise(JsonWriter& out, const storage::GameRecord& game, match::Secrets secrets) {
   out.key("noise");
-  if (game.terms.noise_hidden && !game.over) {
+  if (!match::tells_level(game.terms, secrets)) {
     out.string("hidden");
     return;
   }
@@ -47,7 +59,6 @@ void write_game(JsonWriter& out, const storage::GameRecord& game, const Names& n
   out.key("clock_ms").integer(game.terms.clock.count() / 1000);
   out.key("breaker").integer(rules::index(game.breaker));
   write_board(out, game.terms);
-  write_noise(out, game);
   out.key("commitment").string(match::to_hex(game.commitment));
   out.key("physics_version").string(game.physics_version);
   out.key("rules_version").string(game.rules_version);
@@ -114,7 +125,7 @@ storage::Expected<void> write_score(JsonWriter& out, Reader& reader,
   return {};
 }
 
-// The key of a game whose match is over, and the match's tournament.
+// The game's noise, its key once the match is over, and the match's tournament.
 storage::Expected<void> write_match(JsonWriter& out, Reader& reader,
                                     const storage::GameRecord& game, const Horizon& horizon) {
   const auto match = reader.match(game.match);
@@ -127,7 +138,12 @@ storage::Expected<void> write_match(JsonWriter& out, Reader& reader,
   } else {
     out.null();
   }
-  if (*match && (*match)->over && (*match)->finished && horizon.sees(*(*match)->finished)) {
+  const auto secrets = secrets_of(reader, *match, horizon);
+  if (!secrets) {
+    return tl::unexpected(secrets.error());
+  }
+  write_noise(out, game, *secrets);
+  if (match::tells_keys(*secrets)) {
     out.key("key").string(match::to_hex(game.key));
     out.key("rack_seed").integer(game.rack_seed);
   }
