@@ -9,13 +9,12 @@
 #include <string>
 
 #include "server/app/commands.hpp"
+#include "server/app/exit_codes.hpp"
 #include "server/match/fairness.hpp"
 #include "server/storage/sqlite_database.hpp"
 
 namespace poolhall::app {
 namespace {
-
-enum ExitCode : int { done = 0, cannot_be_done = 1 };
 
 struct FairnessArguments {
   std::string database = "poolhall.db";
@@ -77,33 +76,33 @@ int print_report(const match::FairnessReport& report,
   return done;
 }
 
-int fail(const std::string& reason) {
+int fail_report(const std::string& reason) {
   fmt::print(stderr, "poolhall fairness: {}\n", reason);
-  return cannot_be_done;
+  return failed;
 }
 
 int report_on(const FairnessArguments& arguments) {
   auto reader = storage::open_sqlite_reader(arguments.database);
   if (!reader)
-    return fail(reader.error().reason);
+    return fail_report(reader.error().reason);
   std::vector<storage::MatchRecord> matches;
   if (arguments.tournament) {
     auto found = (*reader)->matches_of(*arguments.tournament);
     if (!found || found->empty())
-      return fail(found ? "no matches of a tournament " + *arguments.tournament
+      return fail_report(found ? "no matches of a tournament " + *arguments.tournament
                         : found.error().reason);
     matches = std::move(*found);
   } else {
     auto found = (*reader)->match(protocol::MatchId{*arguments.match});
     if (!found || !*found)
-      return fail(found ? fmt::format("there is no match {}", *arguments.match)
+      return fail_report(found ? fmt::format("there is no match {}", *arguments.match)
                         : found.error().reason);
     matches.push_back(std::move(**found));
   }
   const auto agents = (*reader)->agents();
   const auto report = match::fairness(**reader, matches);
   if (!agents || !report)
-    return fail(agents ? report.error().reason : agents.error().reason);
+    return fail_report(agents ? report.error().reason : agents.error().reason);
   std::map<storage::AgentId, std::string> names;
   for (const storage::AgentRecord& agent : *agents)
     names[agent.id] = agent.name;

@@ -8,13 +8,12 @@
 #include <string>
 
 #include "server/app/commands.hpp"
+#include "server/app/exit_codes.hpp"
 #include "server/match/import_lines.hpp"
 #include "server/storage/sqlite_database.hpp"
 
 namespace poolhall::app {
 namespace {
-
-enum ExitCode : int { imported = 0, cannot_be_done = 1, wrong_input = 2 };
 
 struct ImportArguments {
   std::string file;
@@ -31,7 +30,7 @@ int import_into(storage::Database& database, std::istream& lines, const ImportAr
   }
   fmt::print("{}: {} agents, {} tournaments, {} matches, {} games, {} turns\n", what.database,
              report->agents, report->tournaments, report->matches, report->games, report->turns);
-  return imported;
+  return done;
 }
 
 int import_file(const ImportArguments& arguments) {
@@ -46,7 +45,7 @@ int import_file(const ImportArguments& arguments) {
   auto database = storage::open_sqlite(arguments.database);
   if (!database) {
     fmt::print(stderr, "poolhall import: {}\n", database.error().reason);
-    return cannot_be_done;
+    return failed;
   }
   return import_into(**database, arguments.file == "-" ? std::cin : file, arguments);
 }

@@ -135,7 +135,7 @@ void play_pair(const Pair& pair, Sums& sums) {
   sums.shots += noise.shared() + noise.alone();
 }
 
-double mean(const std::vector<double>& values) {
+double mean_score(const std::vector<double>& values) {
   double sum = 0;
   for (const double value : values) {
     sum += value;
@@ -144,7 +144,7 @@ double mean(const std::vector<double>& values) {
 }
 
 double variance(const std::vector<double>& values) {
-  const double centre = mean(values);
+  const double centre = mean_score(values);
   double sum = 0;
   for (const double value : values) {
     sum += (value - centre) * (value - centre);
@@ -199,7 +199,7 @@ bool bench_mirrored(const BenchOptions& options, std::ostream& out) {
       independent = sums.differences;
     }
     const double here = variance(sums.differences);
-    table.add({name, std::to_string(pairs), cell(mean(sums.differences)), cell(here),
+    table.add({name, std::to_string(pairs), cell(mean_score(sums.differences)), cell(here),
                shown(bootstrap(sums.differences, {})), cell(here / variance(independent)),
                mirror == Mirror::none ? "" : shown(bootstrap(sums.differences, independent)),
                cell(static_cast<double>(sums.shared) / static_cast<double>(sums.shots))});

@@ -101,7 +101,7 @@ TEST_P(Killed, GoesOnWithTheSameScheduleAndItsGamesAreVerified) {
   const std::string standings = table.rest();
   EXPECT_EQ(table.wait(), 0) << standings;
   // The same table as at the end of the run.
-  EXPECT_THAT(output, testing::HasSubstr(standings.substr(0, standings.find("Advantage"))));
+  EXPECT_THAT(output, testing::HasSubstr(standings.substr(0, standings.find("Games ended"))));
 }
 
 INSTANTIATE_TEST_SUITE_P(Formats, Killed,

@@ -17,7 +17,7 @@ using namespace std::chrono_literals;
 using std::chrono::steady_clock;
 
 TEST(TokenBucket, AllowsItsBurstAtOnceAndItsRateAfterwards) {
-  TokenBucket bucket{50, 100};
+  web::TokenBucket bucket{50, 100};
   const auto start = steady_clock::now();
   int taken = 0;
   while (bucket.take(start)) {
@@ -31,7 +31,7 @@ TEST(TokenBucket, AllowsItsBurstAtOnceAndItsRateAfterwards) {
 }
 
 TEST(TokenBucket, SavesNoMoreThanItsBurst) {
-  TokenBucket bucket{10, 5};
+  web::TokenBucket bucket{10, 5};
   const auto later = steady_clock::now() + 1h;
   int taken = 0;
   while (bucket.take(later)) {

@@ -24,8 +24,8 @@ std::vector<PlayedGame> games() {
 }
 
 TEST(StandingsText, IsAnAlignedTable) {
-  const Standings table =
-      standings(3, games(), {TieBreak::direct_encounter, TieBreak::sonneborn_berger});
+  const Standings table = standings(
+      3, games(), std::vector<TieBreak>{TieBreak::direct_encounter, TieBreak::sonneborn_berger});
   EXPECT_EQ(standings_text(table, names),
             "#  Entry            Points  Games  W  L  D         Elo  Direct    S-B\n"
             "1  Bob-the-Builder     4.5      7  4  2  1  +0 +/- 155       0   8.75\n"
@@ -37,7 +37,7 @@ TEST(StandingsText, IsAnAlignedTable) {
 }
 
 TEST(StandingsText, NothingPlayedYetIsATableOfZeros) {
-  const Standings table = standings(2, {}, {});
+  const Standings table = standings(2, {}, std::vector<TieBreak>{});
   EXPECT_EQ(standings_text(table, names),
             "#  Entry            Points  Games  W  L  D  Elo\n"
             "1  Anna                  0      0  0  0  0    -\n"
@@ -45,7 +45,7 @@ TEST(StandingsText, NothingPlayedYetIsATableOfZeros) {
 }
 
 TEST(CrosstableText, ShowsPointsAndGamesInTheOrderOfTheStandings) {
-  const Standings table = standings(3, games(), {});
+  const Standings table = standings(3, games(), std::vector<TieBreak>{});
   EXPECT_EQ(crosstable_text(crosstable(3, games()), table, names),
             "#  Entry                1      2    3\n"
             "1  Bob-the-Builder      x  2.5/5  2/2\n"
@@ -54,9 +54,9 @@ TEST(CrosstableText, ShowsPointsAndGamesInTheOrderOfTheStandings) {
 }
 
 TEST(EndingsText, NamesEveryWayAGameEnded) {
-  EXPECT_EQ(endings_text(standings(3, games(), {})),
+  EXPECT_EQ(endings_text(standings(3, games(), std::vector<TieBreak>{})),
             "Games ended: eight pocketed 6, stalemate 1, timeout 1\n");
-  EXPECT_EQ(endings_text(standings(3, {}, {})), "Games ended: none yet\n");
+  EXPECT_EQ(endings_text(standings(3, {}, std::vector<TieBreak>{})), "Games ended: none yet\n");
 }
 
 TEST(ProgressText, FillsTheBarByGamesPlayed) {

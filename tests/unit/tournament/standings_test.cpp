@@ -29,7 +29,8 @@ std::vector<EntryId> order(const Standings& table) {
 }
 
 TEST(Standings, PointsAreAWinOneADrawHalf) {
-  const Standings table = standings(3, {won(a, b, b), drawn(b, c), won(c, a, a), won(a, c, c)}, {});
+  const Standings table = standings(3, {won(a, b, b), drawn(b, c), won(c, a, a), won(a, c, c)},
+                                    std::vector<TieBreak>{});
   EXPECT_EQ(order(table), (std::vector{b, c, a}));
   EXPECT_EQ(table.rows[0].points, 1.5);
   EXPECT_EQ(table.rows[0].wins, 1u);
@@ -41,7 +42,7 @@ TEST(Standings, PointsAreAWinOneADrawHalf) {
 
 TEST(Standings, EntriesThatNothingPartsShareARank) {
   const Standings table = standings(3, {won(a, b, a), won(b, a, b), won(a, c, a), won(b, c, b)},
-                                    {TieBreak::direct_encounter});
+                                    std::vector<TieBreak>{TieBreak::direct_encounter});
   EXPECT_EQ(order(table), (std::vector{a, b, c}));
   EXPECT_EQ(table.rows[0].rank, 1u);
   EXPECT_EQ(table.rows[1].rank, 1u);
@@ -52,7 +53,7 @@ TEST(Standings, DirectEncounterCountsOnlyGamesAmongTheTied) {
   // a and b have 2 points each; b beat a; a beat c twice, which does not count.
   const Standings table =
       standings(4, {won(a, b, b), won(a, c, a), won(a, c, a), won(b, d, b), won(b, d, d)},
-                {TieBreak::direct_encounter});
+                std::vector<TieBreak>{TieBreak::direct_encounter});
   EXPECT_EQ(order(table).front(), b);
   EXPECT_EQ(table.rows[0].points, table.rows[1].points);
   EXPECT_EQ(table.rows[0].tie_breaks.at(0), 1);
@@ -64,7 +65,7 @@ TEST(Standings, SonnebornBergerPrefersPointsAgainstTheStrong) {
   const std::vector<PlayedGame> games{won(a, c, a), won(b, d, b), won(c, b, c), won(c, d, c),
                                       won(d, a, a), won(a, b, b), won(b, a, a), won(a, d, d),
                                       won(b, c, c), won(c, a, c), won(d, b, b)};
-  const Standings table = standings(4, games, {TieBreak::sonneborn_berger});
+  const Standings table = standings(4, games, std::vector<TieBreak>{TieBreak::sonneborn_berger});
   // c 4, a 3, b 3, d 1: S-B of a = 4 + 1 + 3 = 8, of b = 1 + 3 + 1 = 5.
   EXPECT_EQ(order(table), (std::vector{c, a, b, d}));
   EXPECT_EQ(table.rows[1].tie_breaks.at(0), 8);
@@ -75,15 +76,18 @@ TEST(Standings, TieBreaksApplyInTheDeclaredOrder) {
   // a: a win against c (0 points) and a loss. b: two draws with d (2 points). Both have 1 point;
   // wins prefer a (1 to 0), Sonneborn-Berger prefers b (0.5 * 2 + 0.5 * 2 = 2 to 0).
   const std::vector<PlayedGame> games{won(a, c, a), won(a, d, d), drawn(b, d), drawn(b, d)};
-  EXPECT_EQ(order(standings(4, games, {TieBreak::wins, TieBreak::sonneborn_berger})),
-            (std::vector{d, a, b, c}));
-  EXPECT_EQ(order(standings(4, games, {TieBreak::sonneborn_berger, TieBreak::wins})),
-            (std::vector{d, b, a, c}));
+  EXPECT_EQ(
+      order(standings(4, games, std::vector<TieBreak>{TieBreak::wins, TieBreak::sonneborn_berger})),
+      (std::vector{d, a, b, c}));
+  EXPECT_EQ(
+      order(standings(4, games, std::vector<TieBreak>{TieBreak::sonneborn_berger, TieBreak::wins})),
+      (std::vector{d, b, a, c}));
 }
 
 TEST(Standings, EndingsAreCounted) {
   const Standings table = standings(
-      2, {won(a, b, a), won(a, b, a), won(b, a, a, rules::EndReason::timeout), drawn(a, b)}, {});
+      2, {won(a, b, a), won(a, b, a), won(b, a, a, rules::EndReason::timeout), drawn(a, b)},
+      std::vector<TieBreak>{});
   EXPECT_EQ(table.endings.at(rules::EndReason::eight_pocketed), 2u);
   EXPECT_EQ(table.endings.at(rules::EndReason::timeout), 1u);
   EXPECT_EQ(table.endings.at(rules::EndReason::stalemate), 1u);
@@ -91,7 +95,8 @@ TEST(Standings, EndingsAreCounted) {
 
 TEST(Standings, RatingsComeWithTheTable) {
   const Standings table =
-      standings(3, {won(a, b, a), won(b, a, a), won(a, b, b), won(b, a, b), won(a, c, a)}, {});
+      standings(3, {won(a, b, a), won(b, a, a), won(a, b, b), won(b, a, b), won(a, c, a)},
+                std::vector<TieBreak>{});
   EXPECT_EQ(table.rows.back().entry, c);
   EXPECT_EQ(table.rows.back().rating.status, ratings::RatingStatus::lost_everything);
   EXPECT_TRUE(table.rows.front().rating.rated);
