@@ -76,6 +76,7 @@ class ClientTest : public testing::Test {
   ClientTest() : acceptor_(io_, {asio::ip::address_v4::loopback(), 0}) {
     options_.port = std::to_string(acceptor_.local_endpoint().port());
     options_.agent.name = "tester";
+    options_.agent.noise = NoisePart::none;  // agent_test.cpp has the other way
     options_.first_backoff = std::chrono::milliseconds(1);
     options_.last_backoff = std::chrono::milliseconds(2);
   }
