@@ -239,7 +239,8 @@ TEST_P(DatabaseConformance, lists_the_latest_finished_matches_until_each_agent_a
   in_transaction([&] { return database_->acknowledge_match(MatchId{1}, AgentId{2}); });
   const auto ids = [&](AgentId agent, std::size_t most) {
     std::vector<MatchId> found;
-    for (const MatchRecord& match : database_->untold_matches(agent, most).value())
+    const auto untold = database_->untold_matches(agent, most);
+    for (const MatchRecord& match : untold.value())
       found.push_back(match.id);
     return found;
   };
