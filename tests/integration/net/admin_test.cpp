@@ -102,7 +102,7 @@ TEST_F(AdminCalls, SayWhatIsWrongWithThem) {
   const auto bad_name = post("agents", R"({"name":"an na"})");
   EXPECT_EQ(bad_name.status, 400);
   EXPECT_EQ(member(bad_name.body, "code"), "bad_name");
-  const auto bad_file = post("tournaments", "name = \"cup\"\nrounds = 3\n");
+  const auto bad_file = post("tournaments", "name = \"cup\"\nturns = 3\n");
   EXPECT_EQ(bad_file.status, 400);
   EXPECT_NE(bad_file.body.find("tournament:2:1"), std::string::npos) << bad_file.body;
   EXPECT_EQ(post("tournaments/cup/start").status, 404);
