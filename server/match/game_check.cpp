@@ -382,6 +382,14 @@ GameCheck::Finding GameCheck::of_other_rules(const TurnRecord& row) {
 
 GameCheck::Finding GameCheck::clock(const TurnRecord& row, rules::Seat mover) const {
   const ClockSettings settings = clock_settings(game_.terms);
+  // Numbers that no turn can have must not reach the clock's arithmetic.
+  constexpr std::chrono::hours longest{24 * 365};
+  for (const auto& [column, time] :
+       {std::pair{"used_us", row.clock.used}, std::pair{"forgiven_us", row.clock.forgiven}}) {
+    if (time.count() < 0 || time > longest)
+      return differs(column, "expected 0 to a year of microseconds, " +
+                                 std::to_string(time.count()) + " is stored");
+  }
   const TurnTime time{row.clock.used, row.clock.forgiven};
   const GameClock::Balance expected = is_played(row.action)
                                           ? after_turn(settings, balance_, mover, time)
