@@ -21,6 +21,11 @@ std::optional<Precision> precision_of(std::string_view text) {
   return std::nullopt;
 }
 
+std::optional<physics::MotionState> pocketed_only(std::string_view text) {
+  const auto state = physics::motion_state(text);
+  return state == physics::MotionState::pocketed ? state : std::nullopt;
+}
+
 double number_or_zero(const JsonNode& node, std::string_view key) {
   const auto member = node.find(key);
   return member ? member->number() : 0;
@@ -31,8 +36,12 @@ physics::Ball<double> read_ball(const JsonNode& node, double radius) {
   physics::Ball<double> ball;
   ball.id = read_ball_id(node.at("id"));
   if (const auto pocket = node.find("pocket")) {
+    node.only({"id", "state", "pocket"});
     ball.pocket = read_pocket(*pocket);
     ball.state = physics::MotionState::pocketed;
+    if (const auto state = node.find("state")) {
+      static_cast<void>(state->one_of(pocketed_only, "\"pocketed\" beside a pocket"));
+    }
     return ball;
   }
   ball.position = read_point(node);

@@ -76,6 +76,16 @@ TEST(SceneJson, NamesTheFieldThatDoesNotFit) {
             "/physics/mu_roll");
 }
 
+TEST(SceneJson, AllowsAPocketOnlyInsteadOfAPlace) {
+  const std::string ball = R"("x":0.5,"y":1.5,"vx":0.1)";
+  const auto down = decode_scene(with(ball, R"("pocket":"side_left","state":"pocketed")"));
+  ASSERT_TRUE(down);
+  EXPECT_EQ(down->balls[1].pocket, physics::PocketId::side_left);
+  EXPECT_EQ(refused(with("\"vx\":0.1", R"("pocket":"side_left")")).field, "/balls/1/x");
+  EXPECT_EQ(refused(with(ball, R"("pocket":"side_left","state":"rolling")")).field,
+            "/balls/1/state");
+}
+
 TEST(SceneJson, RefusesMoreThanSixteenBalls) {
   std::string balls = "[";
   for (int i = 0; i < 17; ++i) {
