@@ -8,6 +8,7 @@
 #include "physics/boundary.hpp"
 #include "physics/jaws.hpp"
 #include "physics/motion.hpp"
+#include "physics/number_check.hpp"
 #include "physics/simulator.hpp"
 
 namespace poolhall::physics {
@@ -27,7 +28,7 @@ inline constexpr double speed_limit = 1e6;  // m/s; beyond it squares lose their
 
 template <class Real>
 [[nodiscard]] std::string written(const Real& value) {
-  return std::to_string(static_cast<double>(value));
+  return decimal(static_cast<double>(value));
 }
 
 template <class Real>

@@ -50,6 +50,15 @@ TEST(CheckScene, RefusesSpeedsBeyondMeaning) {
   EXPECT_EQ(refusal(scene).fault, Fault::out_of_range);
 }
 
+TEST(CheckScene, TellsNumbersAsTheyWereGiven) {
+  Scene<double> scene = scene_with();
+  scene.balls[1].velocity.x = 1e300;
+  EXPECT_EQ(refusal(scene).reason, "expected a magnitude of at most 1e+06, got 1e+300");
+  scene = scene_with();
+  scene.balls[0].position.x = 1e-9;
+  EXPECT_EQ(refusal(scene).reason, "expected a place on the table, 1e-09 is beyond the rail");
+}
+
 TEST(CheckScene, RefusesOverlapButNotWhatRoundingLeaves) {
   Scene<double> scene = scene_with();
   const double touching = 2 * scene.materials.ball_radius;
