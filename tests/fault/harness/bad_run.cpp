@@ -24,7 +24,7 @@ using storage::TurnRecord;
 
 namespace {
 
-constexpr std::size_t most_examples = 10;
+constexpr std::size_t most_differences = 10;
 constexpr std::chrono::milliseconds look_again{20};
 constexpr std::chrono::seconds longest_run{120};
 
@@ -214,7 +214,7 @@ void compare(const Rows& alone, const Rows& among, BadReport& report) {
       ++report.turns;
       const bool same = turn < std::min(alone[game].size(), among[game].size()) &&
                         without_time(alone[game][turn]) == without_time(among[game][turn]);
-      if (!same && report.differences.size() < most_examples) {
+      if (!same && report.differences.size() < most_differences) {
         report.differences.push_back("game " + std::to_string(game + 1) + ", turn " +
                                      std::to_string(turn + 1));
       }

@@ -13,7 +13,7 @@
 namespace poolhall::fault {
 namespace {
 
-constexpr std::chrono::seconds patience{30};
+constexpr std::chrono::seconds log_patience{30};
 
 }  // namespace
 
@@ -22,7 +22,7 @@ class EndLog::Sink final : public spdlog::sinks::base_sink<std::mutex> {
  public:
   std::optional<std::string> await_end(std::uint16_t port) {
     std::unique_lock lock(ends_mutex_);
-    if (!ended_.wait_for(lock, patience, [&] { return ends_.contains(port); })) {
+    if (!ended_.wait_for(lock, log_patience, [&] { return ends_.contains(port); })) {
       return std::nullopt;
     }
     return ends_.at(port);

@@ -2,42 +2,22 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <utility>
 
-#include <sys/wait.h>
-
 #include "protocol/json_value.hpp"
-#include "tests/support/temporary_directory.hpp"
+#include "tests/support/run_command.hpp"
 
 namespace poolhall {
 namespace {
 
-struct Ran {
-  int exit_code = -1;
-  std::string out;
-  std::string err;
-};
-
-std::string read(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using test_support::Ran;
 
 // Runs it with that document, of the fuzzer's corpus, as its standard input.
 Ran judge(const std::string& document, const std::string& arguments = "-") {
-  const test_support::TemporaryDirectory folder;
-  const std::string out = (folder.path() / "out").string();
-  const std::string err = (folder.path() / "err").string();
-  const std::string in = std::string(POOLHALL_SOURCE_DIR) + "/tests/fuzz/corpus/judge/" + document;
-  const int status = std::system((std::string(POOLHALL_PROGRAM) + " judge " + arguments + " < " +
-                                  in + " > " + out + " 2> " + err)
-                                     .c_str());
-  return {WEXITSTATUS(status), read(out), read(err)};
+  return test_support::run_command(
+      std::string(POOLHALL_PROGRAM) + " judge " + arguments,
+      test_support::bytes_of(POOLHALL_SOURCE_DIR "/tests/fuzz/corpus/judge/" + document));
 }
 
 TEST(JudgeCommand, PrintsTheRulingAndTheNextState) {

@@ -1,33 +1,20 @@
 // `poolhall simulate` as a program: what it prints, where, and with which exit code.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <sstream>
 #include <string>
 
-#include <sys/wait.h>
-
 #include "protocol/json_value.hpp"
+#include "tests/support/run_command.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace poolhall {
 namespace {
 
 using protocol::JsonValue;
-
-struct Ran {
-  int exit_code = -1;
-  std::string out;
-  std::string err;
-};
-
-std::string read(const std::filesystem::path& path) {
-  std::ifstream in(path, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
+using test_support::Ran;
 
 class Simulate : public testing::Test {
  protected:
@@ -39,14 +26,9 @@ class Simulate : public testing::Test {
   }
   std::filesystem::path at(const std::string& name) const { return folder_.path() / name; }
 
-  Ran run(const std::string& command) const {
-    const std::string whole = command + " > " + at("out").string() + " 2> " + at("err").string() +
-                              " < " + file("in", input_).string();
-    const int status = std::system(whole.c_str());
-    return {WEXITSTATUS(status), read(at("out")), read(at("err"))};
-  }
   Ran simulate(const std::string& arguments) const {
-    return run(std::string(POOLHALL_PROGRAM) + " simulate " + arguments);
+    return test_support::run_command(std::string(POOLHALL_PROGRAM) + " simulate " + arguments,
+                                     input_);
   }
 
   std::string input_;
@@ -148,7 +130,7 @@ TEST_F(Simulate, WritesOneResultALine) {
 TEST_F(Simulate, DrawsAPicture) {
   input_ = scene();
   EXPECT_EQ(simulate("- --svg " + at("shot.svg").string()).exit_code, 0);
-  const std::string svg = read(at("shot.svg"));
+  const std::string svg = test_support::bytes_of(at("shot.svg"));
   EXPECT_TRUE(svg.starts_with("<svg "));
   EXPECT_TRUE(svg.ends_with("</svg>\n"));
   EXPECT_NE(svg.find("<path d=\"M0.50000 0.50000Q"), std::string::npos);
@@ -178,10 +160,10 @@ TEST_F(Simulate, ReadsAndWritesByThePublishedSchemas) {
     EXPECT_EQ(ran.exit_code, 0) << ran.err;
     session += "s " + text + "\nr " + ran.out;
   }
-  input_ = session;
-  const Ran checked =
-      run("/usr/bin/python3 " POOLHALL_SOURCE_DIR
-          "/tests/support/validate_messages.py " POOLHALL_SOURCE_DIR "/protocol/schema");
+  const Ran checked = test_support::run_command(
+      "/usr/bin/python3 " POOLHALL_SOURCE_DIR
+      "/tests/support/validate_messages.py " POOLHALL_SOURCE_DIR "/protocol/schema",
+      session);
   EXPECT_EQ(checked.exit_code, 0) << checked.out << checked.err;
   EXPECT_EQ(checked.out, "6 valid, 0 wrong\n");
 }

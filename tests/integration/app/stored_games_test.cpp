@@ -1,31 +1,23 @@
 // `poolhall verify`, `replay` and `export` as programs, on a database with a game in it.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
-#include <cstdlib>
-#include <fstream>
-#include <iterator>
 #include <sstream>
 
-#include "tests/support/played_game.hpp"
 #include "protocol/json_value.hpp"
 #include "server/storage/sqlite_database.hpp"
+#include "tests/support/played_game.hpp"
 #include "tests/support/raw_sqlite.hpp"
+#include "tests/support/run_command.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace poolhall {
 namespace {
 
+using test_support::Ran;
 using test_support::RawSqlite;
 using testing::HasSubstr;
 using testing::Not;
-
-struct Ran {
-  int exit_code = -1;
-  std::string out;
-  std::string err;
-};
 
 class StoredGames : public testing::Test {
  protected:
@@ -37,18 +29,11 @@ class StoredGames : public testing::Test {
   }
 
   [[nodiscard]] Ran run(const std::string& arguments) const {
-    const std::string command =
-        std::string(POOLHALL_PROGRAM) + " " + arguments + " > " + at("out") + " 2> " + at("err");
-    const int status = std::system(command.c_str());
-    return {WEXITSTATUS(status), read("out"), read("err")};
+    return test_support::run_command(std::string(POOLHALL_PROGRAM) + " " + arguments);
   }
 
   [[nodiscard]] std::string at(const std::string& name) const {
     return (directory_ / name).string();
-  }
-  [[nodiscard]] std::string read(const std::string& name) const {
-    std::ifstream in(at(name), std::ios::binary);
-    return {std::istreambuf_iterator<char>(in), {}};
   }
 
   test_support::TemporaryDirectory directory_;
@@ -90,7 +75,7 @@ TEST_F(StoredGames, show_one_shot_as_a_picture) {
   EXPECT_EQ(ran.exit_code, 0) << ran.err;
   EXPECT_THAT(ran.out, Not(HasSubstr("(conceded)")));
   EXPECT_THAT(ran.out, HasSubstr("O--"));
-  EXPECT_THAT(read("shot.svg"), HasSubstr("<svg"));
+  EXPECT_THAT(test_support::bytes_of(at("shot.svg")), HasSubstr("<svg"));
 }
 
 TEST_F(StoredGames, that_do_not_exist_are_said_so) {

@@ -20,7 +20,7 @@ using protocol::Received;
 const std::string token = "a-token-for-this-test-only";
 
 // Two agents who come by themselves, one match of two games.
-const std::string cup =
+const std::string cup_file =
     "name = \"cup\"\ngames_per_match = 2\nmirrored = \"none\"\nnoise = \"none\"\n"
     "[[entry]]\nagent = \"anna\"\n[[entry]]\nagent = \"bert\"\n";
 
@@ -128,10 +128,10 @@ TEST_F(AdminCalls, StartATournamentThatIsPlayedToItsEnd) {
   WireClient bert{port()};
   const std::string anna_token = anna.join("anna");
   bert.join("bert");
-  EXPECT_EQ(post("tournaments", cup).status, 201);
+  EXPECT_EQ(post("tournaments", cup_file).status, 201);
   EXPECT_EQ(status_of("cup"), "open");
-  EXPECT_EQ(post("tournaments", cup).status, 201) << "the same again is the same";
-  EXPECT_EQ(post("tournaments", cup + "[clock]\nincrement_seconds = 1\n").status, 409);
+  EXPECT_EQ(post("tournaments", cup_file).status, 201) << "the same again is the same";
+  EXPECT_EQ(post("tournaments", cup_file + "[clock]\nincrement_seconds = 1\n").status, 409);
   EXPECT_EQ(post("tournaments/cup/resume").status, 409);
   EXPECT_EQ(post("tournaments/cup/start").status, 200);
   for (int i = 0; i < 2; ++i) {
@@ -161,7 +161,7 @@ TEST_F(AdminCalls, HoldATournamentBetweenTwoGamesAcrossARestart) {
     WireClient bert{port()};
     anna_token = anna.join("anna");
     bert.join("bert");
-    EXPECT_EQ(post("tournaments", cup).status, 201);
+    EXPECT_EQ(post("tournaments", cup_file).status, 201);
     EXPECT_EQ(post("tournaments/cup/start").status, 200);
     const auto game = anna.wait_for<protocol::GameStart<Received>>().terms.game;
     EXPECT_EQ(post("tournaments/cup/pause").status, 200);
@@ -187,7 +187,7 @@ TEST_F(AdminCalls, GoOnWithARunningTournamentAfterARestart) {
     WireClient bert{port()};
     anna_token = anna.join("anna");
     bert.join("bert");
-    EXPECT_EQ(post("tournaments", cup).status, 201);
+    EXPECT_EQ(post("tournaments", cup_file).status, 201);
     EXPECT_EQ(post("tournaments/cup/start").status, 200);
     const auto game = anna.wait_for<protocol::GameStart<Received>>().terms.game;
     static_cast<void>(anna.call<protocol::GameReply>(protocol::Concede{game}));
@@ -206,7 +206,7 @@ TEST_F(AdminCalls, AbortATournamentAndItsGames) {
   WireClient bert{port()};
   anna.join("anna");
   bert.join("bert");
-  EXPECT_EQ(post("tournaments", cup).status, 201);
+  EXPECT_EQ(post("tournaments", cup_file).status, 201);
   EXPECT_EQ(post("tournaments/cup/start").status, 200);
   static_cast<void>(anna.wait_for<Turn>());
   EXPECT_EQ(post("tournaments/cup/abort").status, 200);

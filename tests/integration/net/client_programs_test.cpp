@@ -1,41 +1,24 @@
 // Our clients against the real program with its house bots in processes of their own.
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
 #include <string>
 
 #include "clients/cpp/client.hpp"
 #include "server_process.hpp"
+#include "tests/support/run_command.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace poolhall::net_tests {
 namespace {
 
-struct Outcome {
-  int exit_status = -1;
-  std::string output;
-};
-
-Outcome run(const std::string& command) {
-  Outcome outcome;
-  std::FILE* pipe = popen((command + " 2>&1").c_str(), "r");
-  std::array<char, 4096> chunk{};
-  while (const std::size_t count = std::fread(chunk.data(), 1, chunk.size(), pipe)) {
-    outcome.output.append(chunk.data(), count);
-  }
-  outcome.exit_status = pclose(pipe);
-  return outcome;
-}
-
 TEST(ClientPrograms, ThePythonExamplePlaysAWholeGameAgainstGreedy) {
   test_support::TemporaryDirectory directory;
   ServerProcess server{directory.path()};
-  const Outcome played =
-      run("timeout 200 python3 " POOLHALL_SOURCE_DIR "/clients/python/example_bot.py 127.0.0.1:" +
-          std::to_string(server.port()));
-  EXPECT_EQ(played.exit_status, 0) << played.output;
-  EXPECT_EQ(played.output.rfind("game over:", 0), 0U) << played.output;
+  const test_support::Ran played = test_support::run_command(
+      "timeout 200 python3 " POOLHALL_SOURCE_DIR "/clients/python/example_bot.py 127.0.0.1:" +
+      std::to_string(server.port()));
+  EXPECT_EQ(played.exit_code, 0) << played.err;
+  EXPECT_EQ(played.out.rfind("game over:", 0), 0U) << played.err;
 }
 
 TEST(ClientPrograms, TheCppClientPlaysAHouseBotToTheEnd) {

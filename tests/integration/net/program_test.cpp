@@ -1,33 +1,22 @@
 // `poolhall serve` as a person starts it.
 #include <gtest/gtest.h>
-#include <sys/wait.h>
 
 #include <algorithm>
-#include <cstdio>
+#include <string>
 
 #include "server_process.hpp"
 #include "test_server.hpp"
+#include "tests/support/run_command.hpp"
 #include "tests/support/temporary_directory.hpp"
 #include "wire_client.hpp"
 
 namespace poolhall::net_tests {
 namespace {
 
-struct Outcome {
-  int code = -1;
-  std::string said;
-};
+using test_support::Ran;
 
-Outcome run(const std::string& arguments) {
-  Outcome outcome;
-  FILE* pipe = popen((std::string{POOLHALL_PROGRAM} + " " + arguments + " 2>&1").c_str(), "r");
-  char buffer[4096];
-  while (fgets(buffer, sizeof buffer, pipe) != nullptr) {
-    outcome.said += buffer;
-  }
-  const int status = pclose(pipe);
-  outcome.code = WIFEXITED(status) ? WEXITSTATUS(status) : -1;
-  return outcome;
+Ran poolhall(const std::string& arguments) {
+  return test_support::run_command(std::string{POOLHALL_PROGRAM} + " " + arguments);
 }
 
 std::ptrdiff_t lines_in(const std::string& text) {
@@ -38,26 +27,26 @@ TEST(Program, SaysInOneLineThatItsPortIsInUse) {
   test_support::TemporaryDirectory directory;
   const ServerProcess server{directory.path()};
   const std::string endpoint = "127.0.0.1:" + std::to_string(server.port());
-  const Outcome outcome = run("serve --listen " + endpoint + " --http 127.0.0.1:0 --db " +
-                              (directory / "other.db").string());
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_EQ(lines_in(outcome.said), 1) << outcome.said;
-  EXPECT_NE(outcome.said.find(endpoint), std::string::npos) << outcome.said;
+  const Ran ran = poolhall("serve --listen " + endpoint + " --http 127.0.0.1:0 --db " +
+                           (directory / "other.db").string());
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_EQ(lines_in(ran.err), 1) << ran.err;
+  EXPECT_NE(ran.err.find(endpoint), std::string::npos) << ran.err;
 }
 
 TEST(Program, SaysInOneLineThatItsDatabaseIsAnotherServers) {
   test_support::TemporaryDirectory directory;
   const ServerProcess server{directory.path()};
-  const Outcome outcome = run("serve --listen 127.0.0.1:0 --http 127.0.0.1:0 --db " +
-                              (directory / "server.db").string());
-  EXPECT_EQ(outcome.code, 1);
-  EXPECT_EQ(lines_in(outcome.said), 1) << outcome.said;
+  const Ran ran = poolhall("serve --listen 127.0.0.1:0 --http 127.0.0.1:0 --db " +
+                           (directory / "server.db").string());
+  EXPECT_EQ(ran.exit_code, 1);
+  EXPECT_EQ(lines_in(ran.err), 1) << ran.err;
 }
 
 TEST(Program, DoesNotOpenItselfToOthersUnasked) {
-  const Outcome outcome = run("serve --listen 0.0.0.0:0 --http 127.0.0.1:0");
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_EQ(lines_in(outcome.said), 1) << outcome.said;
+  const Ran ran = poolhall("serve --listen 0.0.0.0:0 --http 127.0.0.1:0");
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_EQ(lines_in(ran.err), 1) << ran.err;
 }
 
 TEST(Program, RefusesASettingsFileWithAWrongKey) {
@@ -66,9 +55,9 @@ TEST(Program, RefusesASettingsFileWithAWrongKey) {
   FILE* out = fopen(file.c_str(), "w");
   fputs("[server]\nlisten_on = \"127.0.0.1:0\"\n", out);
   fclose(out);
-  const Outcome outcome = run("serve --config " + file);
-  EXPECT_EQ(outcome.code, 2);
-  EXPECT_NE(outcome.said.find(file + ":"), std::string::npos) << outcome.said;
+  const Ran ran = poolhall("serve --config " + file);
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_NE(ran.err.find(file + ":"), std::string::npos) << ran.err;
 }
 
 TEST(Program, StopsInOrderWhenItIsAskedTo) {

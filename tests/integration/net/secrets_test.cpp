@@ -29,7 +29,7 @@ using protocol::Received;
 using testing::HasSubstr;
 using testing::Not;
 
-constexpr const char* cup = "cup";
+constexpr const char* hidden_cup = "cup";
 
 // Everything that spdlog says while this is there.
 class CapturedLog {
@@ -95,11 +95,11 @@ class Secrets : public ::testing::Test {
   void start_match(std::uint32_t games, storage::Mirror mirrored) {
     server_.server().post([=](net::MatchHost& host) {
       static_cast<void>(host.open_tournament(
-          {cup, "The cup", "noise = \"variable\"", net::TournamentStatus::running}));
+          {hidden_cup, "The cup", "noise = \"variable\"", net::TournamentStatus::running}));
       for (const char* name : {"anna", "bert"})
-        host.enter({.tournament = cup, .name = name});
+        host.enter({.tournament = hidden_cup, .name = name});
       net::MatchOrder order;
-      order.tournament = cup;
+      order.tournament = hidden_cup;
       order.agents = {"anna", "bert"};
       order.games = games;
       order.terms.noise = "variable";
@@ -112,7 +112,7 @@ class Secrets : public ::testing::Test {
   void finish_tournament() {
     std::promise<void> done;
     server_.server().post([&](net::MatchHost& host) {
-      host.set_status(cup, net::TournamentStatus::finished);
+      host.set_status(hidden_cup, net::TournamentStatus::finished);
       done.set_value();
     });
     done.get_future().wait();

@@ -2,7 +2,8 @@
 
 #include <gtest/gtest.h>
 
-namespace poolhall::tournament {
+// A namespace of its own: its entries have the names of another file's.
+namespace poolhall::tournament::progress_tests {
 namespace {
 
 using namespace std::chrono_literals;
@@ -59,4 +60,4 @@ TEST(Progress, WhenEverythingIsOverNothingRemains) {
 }
 
 }  // namespace
-}  // namespace poolhall::tournament
+}  // namespace poolhall::tournament::progress_tests
