@@ -6,6 +6,9 @@ import { svg } from './dom.js';
 
 const palette = ['#4fb98a', '#f2b705', '#6aa5ff', '#ff7a59', '#c58bff', '#5fd3d8', '#ff9ecb', '#a8c256'];
 
+/** Characters; the whole name is in the tooltip. */
+const longestLabel = 20;
+
 /**
  * A colour that stays with a name's place.
  * @param {number} index
@@ -29,6 +32,9 @@ export function ticks(low, high, count) {
   }
   return out;
 }
+
+/** @param {string} name */
+const shortened = (name) => (name.length > longestLabel ? `${name.slice(0, longestLabel - 1)}…` : name);
 
 /**
  * One line a row: a point and its 95 % interval.
@@ -55,7 +61,7 @@ export function intervalChart(rows, title) {
       const colour = seriesColour(i);
       const [a, b] = [x(row.value - row.margin), x(row.value + row.margin)];
       return [
-        svg('text', { class: 'label', x: left - 12, y: y + 4, 'text-anchor': 'end' }, row.label),
+        svg('text', { class: 'label', x: left - 12, y: y + 4, 'text-anchor': 'end' }, svg('title', {}, row.label), shortened(row.label)),
         svg('line', { class: 'bar', x1: a, x2: b, y1: y, y2: y, stroke: colour }),
         svg('line', { class: 'bar', x1: a, x2: a, y1: y - 5, y2: y + 5, stroke: colour }),
         svg('line', { class: 'bar', x1: b, x2: b, y1: y - 5, y2: y + 5, stroke: colour }),

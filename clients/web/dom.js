@@ -68,6 +68,26 @@ export function fill(element, ...children) {
   append(element, children);
 }
 
+/**
+ * What has changed on the screen, under the hands of who uses it: the same link has the focus afterwards, and
+ * what was scrolled sideways stays so.
+ * @param {Element} element
+ * @param {(Child | Child[])[]} children
+ */
+export function refill(element, ...children) {
+  const focused = document.activeElement;
+  const href = element.contains(focused) ? focused?.getAttribute('href') : null;
+  const scrolled = [...element.querySelectorAll('.scroll')].map((e) => e.scrollLeft);
+  fill(element, ...children);
+  element.querySelectorAll('.scroll').forEach((e, i) => {
+    e.scrollLeft = scrolled[i] ?? 0;
+  });
+  if (href) {
+    const again = [...element.querySelectorAll('a')].find((a) => a.getAttribute('href') === href);
+    again?.focus({ preventScroll: true });
+  }
+}
+
 const icons = {
   play: 'M5 3l12 7-12 7z',
   pause: 'M4 3h4v14H4zM12 3h4v14h-4z',

@@ -23,6 +23,12 @@ const ballsOf = (state) => state.balls
   .filter((/** @type {any} */ b) => b.pocket === undefined && !b.off_table);
 
 /**
+ * The ball that must be struck first in nine-ball.
+ * @param {any} state
+ */
+const lowestOf = (state) => Math.min(...ballsOf(state).map((/** @type {any} */ b) => b.id).filter((/** @type {number} */ id) => id > 0));
+
+/**
  * The scene of a shot as `poolhall simulate` takes it.
  * @param {any} game
  * @param {any} turn
@@ -261,7 +267,7 @@ export class GameView {
       h('tr', {}, h('th', { scope: 'row' }, key), h('td', {}, i[key].toFixed(3)), h('td', {}, e[key].toFixed(3)))) : [];
     fill(/** @type {HTMLElement} */ (this.ruling),
       h('h2', {}, `Turn ${turn.turn}: ${game.agents[turn.by]}`),
-      turn.action === 'shot' ? h('p', { class: 'call' }, `Called: ${callWords(turn.call)}`)
+      turn.action === 'shot' ? h('p', { class: 'call' }, turn.state_before.kind === 'break' ? 'Break' : `Called: ${callWords(turn.call)}`)
         : h('p', { class: 'call' }, capital(turnWords(turn))),
       h('ul', { class: 'clauses' }, rulingWords(turn.ruling).map(({ text, kind }) => h('li', { class: kind }, text))),
       this.resultLine(turn.state_after?.result),
@@ -292,14 +298,29 @@ export class GameView {
       const group = state.groups?.[seat];
       const fouls = state.fouls_in_a_row?.[seat];
       element.classList.toggle('to-move', state.to_move === seat && !state.result);
+      element.classList.toggle('winner', state.result?.winner === seat);
       fill(element,
-        h('div', { class: 'name' }, h('span', { class: `seat seat${seat}` }, game.agents[seat]),
-          h('span', { class: 'score', title: 'games won in this match' }, game.match_score[seat])),
+        h('div', { class: 'name' }, h('span', { class: `seat seat${seat}`, title: game.agents[seat] }, game.agents[seat])),
         h('div', { class: 'line' }, h('span', { class: 'clock' }, this.clockOf(seat)),
-          group ? h('span', {}, group) : game.rules === '8-ball' ? h('span', { class: 'dim' }, 'open table') : null,
-          fouls ? h('span', {}, `${fouls} foul${fouls > 1 ? 's' : ''} in a row`) : null),
+          h('span', { class: 'score', title: 'games won in this match' }, game.match_score[seat])),
+        h('div', { class: 'line' }, this.standing(state, seat, group, fouls)),
         h('div', { class: 'balls' }, this.ballsLeft(state, group)));
     });
+  }
+
+  /**
+   * What a player has to do, or has done, in words.
+   * @param {any} state
+   * @param {number} seat
+   * @param {string | undefined} group
+   * @param {number | undefined} fouls
+   */
+  standing(state, seat, group, fouls) {
+    if (state.result) {
+      return state.result.winner === seat ? 'won' : state.result.winner === null ? 'drawn' : 'lost';
+    }
+    const aim = group ?? (this.game.rules === '8-ball' ? 'open table' : `on the ${lowestOf(state)}`);
+    return fouls ? `${fouls} foul${fouls > 1 ? 's' : ''} in a row` : aim;
   }
 
   /**

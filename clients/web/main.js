@@ -22,12 +22,24 @@ let shown = '';
 const numberIn = (text) => (/^\d{1,15}$/.test(text ?? '') ? Number(text) : undefined);
 
 /**
+ * What is no escape stays as it is: it names nothing then.
+ * @param {string} part
+ */
+function decoded(part) {
+  try {
+    return decodeURIComponent(part);
+  } catch {
+    return part;
+  }
+}
+
+/**
  * What an address asks for.
  * @param {string} hash
  */
 export function route(hash) {
   const [path, query = ''] = hash.replace(/^#\/?/, '').split('?');
-  const parts = path.split('/').filter(Boolean).map(decodeURIComponent);
+  const parts = path.split('/').filter(Boolean).map(decoded);
   const parameters = new URLSearchParams(query);
   const t = parameters.get('t');
   return {
@@ -71,7 +83,12 @@ async function show() {
   const where = route(location.hash);
   const key = `${where.page}/${where.name ?? ''}`;
   if (key === shown && view?.goTo) {
-    await view.goTo({ shot: where.shot, t: where.t });
+    try {
+      await view.goTo({ shot: where.shot, t: where.t });
+    } catch (error) {
+      shown = '';  // what is on the screen now is the complaint
+      complain(error);
+    }
     return;
   }
   view?.close();
@@ -102,6 +119,7 @@ async function show() {
     root.dataset.ready = key;
   } catch (error) {
     if (view === opening) {
+      shown = '';
       complain(error);
     }
   }

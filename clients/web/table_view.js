@@ -7,6 +7,7 @@
 
 import { BallArt, lineColourOf } from './ball_art.js';
 import { tableGeometry } from './geometry.js';
+import { paintGround, tableMargin } from './table_ground.js';
 
 /**
  * @typedef {import('./motion.js').Motion} Motion
@@ -20,19 +21,11 @@ import { tableGeometry } from './geometry.js';
  *   aim?: Point[] | null}} Frame
  */
 
-/** Of the wood around the cushions, m. */
-const rail = 0.062;
-const corner = 0.045;
 const fallTime = 0.22;
 const cueLength = 1.45;
 const backswing = 0.16;
 /** Copied, not blended: a frame begins with a picture of the whole table. */
 const opaque = { alpha: false };
-/** The page's own, around the table's round corners. */
-const pageGround = '#101418';
-const cloth = '#17593c';
-const clothLight = '#1e6c4a';
-const cushionColour = '#0f4630';
 
 /**
  * Where a ball's own axes point.
@@ -58,7 +51,7 @@ export class TableView {
     this.radius = radius;
     this.geometry = tableGeometry(table);
     this.ground = document.createElement('canvas');
-    this.margin = this.geometry.cushionWidth + rail;
+    this.margin = tableMargin(this.geometry);
     this.scale = 1;
     this.left = 0;
     this.top = 0;
@@ -154,124 +147,10 @@ export class TableView {
     this.ground.width = this.canvas.width;
     this.ground.height = this.canvas.height;
     const ctx = this.ground.getContext('2d', opaque);
-    if (!ctx) {
-      return;
-    }
-    ctx.fillStyle = pageGround;
-    ctx.fillRect(0, 0, this.ground.width, this.ground.height);
-    this.enterTable(ctx);
-    const { width, length } = this.table;
-    this.paintFrame(ctx, width, length);
-    this.paintCushions(ctx);
-    this.paintPockets(ctx);
-    this.paintMarks(ctx, width, length);
-  }
-
-  /**
-   * @param {CanvasRenderingContext2D} ctx
-   * @param {number} width
-   * @param {number} length
-   */
-  paintFrame(ctx, width, length) {
-    const m = this.margin;
-    const k = this.geometry.cushionWidth;
-    const wood = ctx.createLinearGradient(-m, 0, width + m, length);
-    wood.addColorStop(0, '#4a2f1d');
-    wood.addColorStop(0.5, '#5d3b24');
-    wood.addColorStop(1, '#412818');
-    ctx.fillStyle = wood;
-    ctx.strokeStyle = wood;
-    ctx.lineJoin = 'round';
-    ctx.lineWidth = 2 * corner;
-    const inset = m - corner;
-    ctx.fillRect(-inset, -inset, width + 2 * inset, length + 2 * inset);
-    ctx.strokeRect(-inset, -inset, width + 2 * inset, length + 2 * inset);
-    const light = ctx.createRadialGradient(width / 2, length / 2, 0, width / 2, length / 2, length * 0.62);
-    light.addColorStop(0, clothLight);
-    light.addColorStop(1, cloth);
-    ctx.fillStyle = light;
-    ctx.fillRect(-k, -k, width + 2 * k, length + 2 * k);
-  }
-
-  /** @param {CanvasRenderingContext2D} ctx */
-  paintCushions(ctx) {
-    for (const { points, nose } of this.geometry.cushions) {
-      ctx.beginPath();
-      points.forEach((p) => ctx.lineTo(p.x, p.y));
-      ctx.closePath();
-      ctx.fillStyle = cushionColour;
-      ctx.shadowColor = 'rgba(0,0,0,.45)';
-      ctx.shadowBlur = 0.012 * this.scale;
-      ctx.fill();
-      ctx.shadowColor = 'transparent';
-      ctx.beginPath();
-      nose.forEach((p) => ctx.lineTo(p.x, p.y));
-      ctx.strokeStyle = '#2f8a61';
-      ctx.lineWidth = 0.0025;
-      ctx.stroke();
-    }
-  }
-
-  /** @param {CanvasRenderingContext2D} ctx */
-  paintPockets(ctx) {
-    for (const { centre, radius } of this.geometry.holes) {
-      const depth = ctx.createRadialGradient(centre.x, centre.y, 0, centre.x, centre.y, radius);
-      depth.addColorStop(0, '#000');
-      depth.addColorStop(0.8, '#060606');
-      depth.addColorStop(1, '#15130f');
-      ctx.fillStyle = depth;
-      ctx.beginPath();
-      ctx.arc(centre.x, centre.y, radius, 0, 2 * Math.PI);
-      ctx.fill();
-    }
-    ctx.strokeStyle = 'rgba(255,255,255,.28)';
-    ctx.lineWidth = 0.002;
-    for (const [from, to] of this.geometry.mouths) {
-      ctx.beginPath();
-      ctx.moveTo(from.x, from.y);
-      ctx.lineTo(to.x, to.y);
-      ctx.stroke();
-    }
-  }
-
-  /**
-   * Head string, foot spot and sights.
-   * @param {CanvasRenderingContext2D} ctx
-   * @param {number} width
-   * @param {number} length
-   */
-  paintMarks(ctx, width, length) {
-    ctx.strokeStyle = 'rgba(255,255,255,.16)';
-    ctx.lineWidth = 0.0025;
-    if (this.table.head_string) {
-      ctx.beginPath();
-      ctx.moveTo(0, this.table.head_string);
-      ctx.lineTo(width, this.table.head_string);
-      ctx.stroke();
-    }
-    const spot = this.table.foot_spot;
-    if (spot) {
-      ctx.fillStyle = 'rgba(255,255,255,.35)';
-      ctx.beginPath();
-      ctx.arc(spot.x, spot.y, 0.005, 0, 2 * Math.PI);
-      ctx.fill();
-    }
-    ctx.fillStyle = '#e9d9b8';
-    const out = this.geometry.cushionWidth + rail / 2;
-    const sight = (/** @type {number} */ x, /** @type {number} */ y) => {
-      ctx.beginPath();
-      ctx.arc(x, y, 0.006, 0, 2 * Math.PI);
-      ctx.fill();
-    };
-    for (let i = 1; i < 8; ++i) {
-      if (i !== 4) {
-        sight(-out, (length * i) / 8);
-        sight(width + out, (length * i) / 8);
-      }
-    }
-    for (let i = 1; i < 4; ++i) {
-      sight((width * i) / 4, -out);
-      sight((width * i) / 4, length + out);
+    if (ctx) {
+      paintGround(ctx, {
+        table: this.table, geometry: this.geometry, scale: this.scale, enter: (to) => this.enterTable(to),
+      });
     }
   }
 
@@ -294,7 +173,7 @@ export class TableView {
       this.drawPaths(frame.motion, frame.t, 'solid');
     }
     if (frame.ghost) {
-      this.drawPaths(frame.ghost, frame.ghost.duration, 'ghost');
+      this.drawPaths(frame.ghost, frame.t, 'ghost');
       this.drawGhost(frame.ghost, frame.t);
     }
     ctx.setTransform(1, 0, 0, 1, 0, 0);
@@ -323,14 +202,13 @@ export class TableView {
     const { ctx } = this;
     for (const { id, points } of cloud) {
       ctx.fillStyle = lineColourOf(id);
-      ctx.strokeStyle = 'rgba(0,0,0,.45)';
-      ctx.lineWidth = 0.001;
+      ctx.globalAlpha = 0.62;
       for (const { x, y } of points) {
         ctx.beginPath();
-        ctx.arc(x, y, 0.0065, 0, 2 * Math.PI);
+        ctx.arc(x, y, 0.0058, 0, 2 * Math.PI);
         ctx.fill();
-        ctx.stroke();
       }
+      ctx.globalAlpha = 1;
     }
   }
 

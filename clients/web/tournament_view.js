@@ -2,7 +2,7 @@
 
 import { getJson, throttled, watch } from './api.js';
 import { intervalChart } from './charts.js';
-import { fill, h } from './dom.js';
+import { h, refill } from './dom.js';
 import { progressBar } from './tournaments_view.js';
 import { capital, endingWords, signed, spaced } from './words.js';
 
@@ -56,7 +56,7 @@ export class TournamentView {
 
   /** @param {any} data */
   paint(data) {
-    fill(this.root,
+    refill(this.root,
       h('nav', { class: 'crumbs' }, h('a', { href: '#/' }, 'Tournaments'),
         h('span', { 'aria-current': 'page' }, data.title || data.tournament),
         h('span', { class: `tag status-${data.status}` }, data.status)),
@@ -68,8 +68,9 @@ export class TournamentView {
       h('div', { class: 'columns' },
         h('section', {}, h('h2', {}, 'Standings'), this.standings(data)),
         h('section', {}, h('h2', {}, 'Elo with 95 % intervals'), this.chart(data))),
-      h('section', {}, h('h2', {}, 'Who against whom'), this.crosstable(data)),
-      h('section', {}, h('h2', {}, 'How games ended'), this.endings(data)),
+      h('div', { class: 'columns' },
+        h('section', {}, h('h2', {}, 'Who against whom'), this.crosstable(data)),
+        h('section', {}, h('h2', {}, 'How games ended'), this.endings(data))),
       h('section', {}, h('h2', {}, 'Games'), this.games(data)));
   }
 
@@ -94,7 +95,8 @@ export class TournamentView {
     return h('div', {}, intervalChart(rated.map((/** @type {any} */ row) =>
       ({ label: row.agent, value: row.estimate.elo, margin: row.estimate.margin })), 'Elo with 95 % intervals'),
     advantage && h('p', { class: 'dim' },
-      `The break is worth ${signed(advantage.elo)} ± ${advantage.margin.toFixed(0)} Elo.`));
+      `The break is worth ${signed(advantage.elo)} ± ${advantage.margin.toFixed(0)} Elo.`),
+    (data.remarks ?? []).map((/** @type {string} */ line) => h('p', { class: 'dim' }, line)));
   }
 
   /** @param {any} data */
@@ -119,14 +121,25 @@ export class TournamentView {
 
   /** @param {any} data */
   endings(data) {
-    const list = Object.entries(data.endings);
-    return h('p', { class: 'endings' }, list.map(([reason, count]) =>
-      h('span', { class: 'tag' }, `${capital(endingWords(reason))} ${count}`)));
+    const list = Object.entries(data.endings).map(([reason, count]) => ({ reason, count: Number(count) }))
+      .sort((a, b) => b.count - a.count);
+    const most = Math.max(1, ...list.map(({ count }) => count));
+    if (list.length === 0) {
+      return h('p', { class: 'dim' }, 'No game is over yet.');
+    }
+    return h('table', { class: 'data endings' }, h('tbody', {}, list.map(({ reason, count }) => {
+      const bar = h('span', { class: 'bar' });
+      bar.style.setProperty('--share', String(count / most));
+      return h('tr', {}, h('th', { scope: 'row' }, capital(endingWords(reason))), h('td', { class: 'num' }, count),
+        h('td', { class: 'wide' }, bar));
+    })));
   }
 
   /** @param {any} data */
   games(data) {
-    const rows = data.matches.flatMap((/** @type {any} */ match) => match.games)
+    const byRounds = data.format !== 'round_robin' && data.matches.some((/** @type {any} */ match) => match.round);
+    const rows = data.matches.flatMap((/** @type {any} */ match) =>
+      match.games.map((/** @type {any} */ game) => ({ ...game, round: match.round })))
       .sort((/** @type {any} */ a, /** @type {any} */ b) => Number(a.over) - Number(b.over) || b.game - a.game);
     const result = (/** @type {any} */ game) => {
       if (!game.over) {
@@ -136,10 +149,11 @@ export class TournamentView {
       return `${who}, ${endingWords(game.reason)}`;
     };
     return h('div', { class: 'scroll' }, h('table', { class: 'data' },
-      h('thead', {}, h('tr', {}, ['Game', 'Breaks first', 'Against', 'Result', 'Turns']
-        .map((text) => h('th', { scope: 'col', class: /Game|Turns/.test(text) ? 'num' : '' }, text)))),
+      h('thead', {}, h('tr', {}, ['Game', byRounds && 'Round', 'Breaks first', 'Against', 'Result', 'Turns'].filter(Boolean)
+        .map((text) => h('th', { scope: 'col', class: /Game|Round|Turns/.test(String(text)) ? 'num' : '' }, text)))),
       h('tbody', {}, rows.slice(0, mostGames).map((/** @type {any} */ game) => h('tr', {},
         h('td', { class: 'num' }, h('a', { href: `#/games/${game.game}` }, game.game)),
+        byRounds && h('td', { class: 'num dim' }, game.round ?? ''),
         h('td', {}, game.agents[0]), h('td', {}, game.agents[1]), h('td', {}, result(game)),
         h('td', { class: 'num' }, game.turns ?? ''))))),
     rows.length > mostGames && h('p', { class: 'dim' }, `The newest ${mostGames} of ${rows.length}.`));

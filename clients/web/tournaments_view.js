@@ -1,7 +1,7 @@
 // All tournaments, and the games that go on.
 
 import { getJson, throttled, watch } from './api.js';
-import { fill, h } from './dom.js';
+import { fill, h, refill } from './dom.js';
 import { dateText, spaced } from './words.js';
 
 /**
@@ -51,7 +51,7 @@ export class TournamentsView {
 
   async load() {
     const { tournaments } = await getJson('/api/tournaments', this.abort.signal);
-    fill(this.cards ?? this.root, tournaments.map((/** @type {any} */ t) => this.card(t)),
+    refill(this.cards ?? this.root, tournaments.map((/** @type {any} */ t) => this.card(t)),
       tournaments.length === 0 && h('p', { class: 'dim' }, 'None yet.'));
   }
 
@@ -69,7 +69,7 @@ export class TournamentsView {
 
   /** @param {any[]} games */
   paintLive(games) {
-    fill(this.games ?? this.root, games.slice(0, 60).map(liveGame),
+    refill(this.games ?? this.root, games.slice(0, 60).map(liveGame),
       games.length === 0 && h('p', { class: 'dim' }, 'No game goes on.'));
   }
 }

@@ -75,6 +75,8 @@ export class WorkbenchView {
     /** @type {number | null} */
     this.dragged = null;
     this.aiming = false;
+    /** @type {number | null} the ball that the arrow keys move */
+    this.selected = null;
   }
 
   async open() {
@@ -194,13 +196,13 @@ export class WorkbenchView {
       this.compared = value;
       this.strike();
     });
-    const noise = select('Noise', ['none', ...names(this.presets.noise).filter((n) => n !== 'none')], (value) => {
+    this.noiseSelect = select('Noise', ['none', ...names(this.presets.noise).filter((n) => n !== 'none')], (value) => {
       this.noise = value;
       this.strike();
     });
     const row = (/** @type {string} */ text, /** @type {Node} */ control) => h('label', { class: 'row' }, h('span', {}, text), control);
     return h('fieldset', {}, h('legend', {}, 'Models'), row('Table', tables), row('Physics', physics),
-      row('Cushion', cushion), row('Compare with', compare), row('Cloud of outcomes, noise', noise));
+      row('Cushion', cushion), row('Compare with', compare), row('Cloud of outcomes, noise', this.noiseSelect));
   }
 
   jsonPanel() {
@@ -329,18 +331,53 @@ export class WorkbenchView {
    * @param {{x: number, y: number}} point
    */
   point({ x, y }) {
-    const { table, physics } = this.numbers;
     const cue = this.scene.balls.find((/** @type {any} */ b) => b.id === 0);
     if (this.aiming && cue) {
       const phi = (Math.atan2(y - cue.y, x - cue.x) * 180) / Math.PI;
       this.scene.shot.phi = Number(((phi + 360) % 360).toFixed(2));
     } else if (this.dragged !== null) {
-      const ball = this.scene.balls.find((/** @type {any} */ b) => b.id === this.dragged);
-      const R = physics.ball_radius;
-      ball.x = Number(Math.min(table.width - R, Math.max(R, x)).toFixed(4));
-      ball.y = Number(Math.min(table.length - R, Math.max(R, y)).toFixed(4));
+      this.place(this.scene.balls.find((/** @type {any} */ b) => b.id === this.dragged), x, y);
     }
     this.lay();
+  }
+
+  /**
+   * As near to there as the cushions allow.
+   * @param {any} ball
+   * @param {number} x
+   * @param {number} y
+   */
+  place(ball, x, y) {
+    const { table, physics } = this.numbers;
+    const R = physics.ball_radius;
+    ball.x = Number(Math.min(table.width - R, Math.max(R, x)).toFixed(4));
+    ball.y = Number(Math.min(table.length - R, Math.max(R, y)).toFixed(4));
+  }
+
+  /** The next ball is the one that arrow keys move. */
+  selectNext() {
+    const ids = this.scene.balls.map((/** @type {any} */ b) => b.id).sort((/** @type {number} */ a, /** @type {number} */ b) => a - b);
+    this.selected = ids.find((/** @type {number} */ id) => id > (this.selected ?? -1)) ?? null;
+    this.say(this.selected === null ? 'No ball is selected.'
+      : `${this.selected === 0 ? 'The cue ball' : `Ball ${this.selected}`}: arrow keys move it, with shift by less.`);
+    this.frame();
+  }
+
+  /**
+   * @param {KeyboardEvent} event
+   * @returns {boolean} whether a ball was moved
+   */
+  nudge(event) {
+    const ball = this.scene.balls.find((/** @type {any} */ b) => b.id === this.selected);
+    const by = event.shiftKey ? 0.0005 : 0.01;
+    const [right, up] = { ArrowRight: [by, 0], ArrowLeft: [-by, 0], ArrowUp: [0, by], ArrowDown: [0, -by] }[event.key] ?? [0, 0];
+    if (!ball || (right === 0 && up === 0)) {
+      return false;
+    }
+    const lies = this.view?.lies;
+    this.place(ball, ball.x + (lies ? -up : right), ball.y + (lies ? right : up));
+    this.lay();
+    return true;
   }
 
   /** @param {string} text */
@@ -427,6 +464,7 @@ export class WorkbenchView {
       paths: true,
       ghost: this.other,
       cloud: this.cloud ?? undefined,
+      highlight: this.selected === null ? null : { ball: this.selected },
       cue: cue ? { ...shot, x: cue.x, y: cue.y } : null,
       aim: cue && !struck ? [cue, { x: cue.x + 0.45 * Math.cos(phi), y: cue.y + 0.45 * Math.sin(phi) }] : null,
     });
@@ -437,6 +475,13 @@ export class WorkbenchView {
   key(event) {
     if (event.key === 's') {
       this.strike();
+      return true;
+    }
+    if (event.key === 'b') {
+      this.selectNext();
+      return true;
+    }
+    if (this.nudge(event)) {
       return true;
     }
     return this.bar?.key(event) ?? false;

@@ -53,6 +53,7 @@ try {
     });
     view.takeJson();
     view.noise = 'low';
+    view.noiseSelect.value = 'low';
     await view.strike();
     view.playback.pause();
     view.playback.seek(view.playback.end);
