@@ -58,7 +58,9 @@ export class WebSocket {
     this.onmessage = () => {};
     this.onclose = () => {};
     this.ended = false;
+    /** @type {Buffer} */
     this.bytes = Buffer.alloc(0);
+    /** @type {Buffer[]} of a message whose last frame has not come */
     this.parts = [];
     const key = randomBytes(16).toString('base64');
     const ask = url.startsWith('wss:') ? httpsRequest : httpRequest;

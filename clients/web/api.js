@@ -224,7 +224,7 @@ export const watch = (path, onMessage, onState) => here.watch(path, onMessage, o
  */
 export function throttled(milliseconds, action) {
   let next = 0;
-  /** @type {number | undefined} */
+  /** @type {any} */
   let timer;
   const run = () => {
     timer = undefined;

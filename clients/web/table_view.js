@@ -56,7 +56,7 @@ export class TableView {
     this.left = 0;
     this.top = 0;
     this.lies = true;
-    const found = canvas.getContext('2d', opaque);
+    const found = /** @type {CanvasRenderingContext2D | null} */ (canvas.getContext('2d', opaque));
     if (!found) {
       throw new Error('this browser draws no canvas');
     }
@@ -146,7 +146,7 @@ export class TableView {
   paintGround() {
     this.ground.width = this.canvas.width;
     this.ground.height = this.canvas.height;
-    const ctx = this.ground.getContext('2d', opaque);
+    const ctx = /** @type {CanvasRenderingContext2D | null} */ (this.ground.getContext('2d', opaque));
     if (ctx) {
       paintGround(ctx, {
         table: this.table, geometry: this.geometry, scale: this.scale, enter: (to) => this.enterTable(to),

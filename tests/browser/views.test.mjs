@@ -5,7 +5,8 @@ import { execFileSync } from 'node:child_process';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { Chromium } from './chromium.mjs';
-import { program, root, startServer, temporaryDirectory, until } from './program.mjs';
+import { program, root, startServer, temporaryDirectory } from './program.mjs';
+import { problems } from './schema.mjs';
 
 const enough = { timeout: 100_000 };
 let directory;
@@ -64,6 +65,37 @@ async function allViews() {
     ['/', 'tournaments/'],
   ];
 }
+
+test('what the API answers is what its OpenAPI document says', enough, async () => {
+  const { paths, components: { schemas } } = await api('/api/openapi.json');
+  const { matches, entries } = await api(`/api/tournaments/${tournament}`);
+  const game = matches[0].games[0].game;
+  const scene = { table: 'bar7', physics: 'modern', balls: [{ id: 0, x: 0.5, y: 0.5 }, { id: 3, x: 0.5, y: 1 }],
+    shot: { a: 0, b: 0, theta: 5, phi: 90, v: 2 } };
+  const asked = {
+    '/healthz': '/healthz',
+    '/api/live': '/api/live',
+    '/api/agents': '/api/agents',
+    '/api/agents/{agent}': `/api/agents/${entries[0].agent}`,
+    '/api/tournaments': '/api/tournaments',
+    '/api/tournaments/{tournament}': `/api/tournaments/${tournament}`,
+    '/api/games/{game}': `/api/games/${game}`,
+    '/api/games/{game}/shots/{turn}': `/api/games/${game}/shots/1`,
+    '/api/evaluate': ['/api/evaluate', { scene, noise: 'low', samples: 9 }],
+  };
+  for (const [path, item] of Object.entries(paths)) {
+    const [operation] = Object.values(item);
+    const { schema } = operation.responses['200']?.content['application/json'] ?? {};
+    assert.equal(Boolean(schema), path in asked || path.startsWith('/api/admin/'), path);
+    const [target, body] = [asked[path] ?? []].flat();
+    if (target) {
+      const response = await fetch(server.url + target, body ? { method: 'POST', body: JSON.stringify(body) } : {});
+      assert.deepEqual(problems(schemas, schema, await response.json()), [], target);
+    }
+  }
+  const refusal = await (await fetch(`${server.url}/api/evaluate`, { method: 'POST', body: '{}' })).json();
+  assert.deepEqual(problems(schemas, { $ref: '#/components/schemas/Refusal' }, refusal), []);
+});
 
 test('without a single game every view says so', enough, () => tour(nothing.url,
   [['/agents', 'agents/'], ['/workbench', 'workbench/'], ['/', 'tournaments/']], async (page, hash) => {
