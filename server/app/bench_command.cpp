@@ -10,6 +10,7 @@
 #include "server/app/commands.hpp"
 #include "tests/bench/benchmarks.hpp"
 #include "tests/bench/server/server_bench.hpp"
+#include "tests/bench/server/spectators_bench.hpp"
 #include "tests/fault/harness/bad_run.hpp"
 #include "tests/fault/harness/kill_run.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -97,6 +98,34 @@ void add_server_bench(CLI::App& parent, int& exit_code) {
   });
 }
 
+void add_spectators_bench(CLI::App& parent, int& exit_code) {
+  auto options = std::make_shared<bench::SpectatorsBenchOptions>();
+  CLI::App* command = parent.add_subcommand(
+      "spectators", "what a thousand spectators of one game cost those who play others");
+  command->add_option("--directory", options->directory, "where the database is made");
+  command->add_option("--seconds", options->seconds, "of each window")
+      ->check(CLI::Range(0.5, 3600.0))
+      ->capture_default_str();
+  command->add_option("--pairs", options->pairs, "of windows, with and without spectators")
+      ->check(CLI::Range(1U, 1'000U))
+      ->capture_default_str();
+  command->add_option("--spectators", options->spectators, "of one game")
+      ->check(CLI::Range(1U, 2'000U))
+      ->capture_default_str();
+  command->add_option("--games", options->games, "besides the one that is watched")
+      ->check(CLI::Range(1U, 10'000U))
+      ->capture_default_str();
+  command->add_option("--rate", options->rate, "shots a second in all of them")
+      ->check(CLI::Range(1.0, 1e6))
+      ->capture_default_str();
+  command->add_option("--watched-rate", options->watched_rate, "shots a second in that one")
+      ->check(CLI::Range(0.1, 100.0))
+      ->capture_default_str();
+  command->callback([options, &exit_code] {
+    exit_code = guarded([&] { return bench::bench_spectators(*options, std::cout); });
+  });
+}
+
 void add_faults_bench(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<FaultOptions>();
   CLI::App* command = parent.add_subcommand(
@@ -149,6 +178,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
   add_benchmark(*command, exit_code, "lean", "what each omission saves", bench::bench_lean);
   add_faults_bench(*command, exit_code);
   add_server_bench(*command, exit_code);
+  add_spectators_bench(*command, exit_code);
   const BenchCommand speed =
       add_benchmark(*command, exit_code, "speed",
                     "microseconds a shot, and against the paper's own scheme", bench::bench_speed);

@@ -27,6 +27,7 @@ struct ServeArguments {
   std::optional<std::string> admin_token_file;
   std::optional<std::string> ready_file;
   std::optional<std::string> tls_listen;
+  std::optional<std::string> tls_http;
   std::optional<std::string> tls_certificate;
   std::optional<std::string> tls_key;
   bool log_json = false;
@@ -75,6 +76,7 @@ void override_with(const ServeArguments& arguments, settings::ServerSettings& se
   settings.database = arguments.database.value_or(settings.database);
   settings.admin_token_file = arguments.admin_token_file.value_or(settings.admin_token_file);
   settings.tls.listen = arguments.tls_listen.value_or(settings.tls.listen);
+  settings.tls.http = arguments.tls_http.value_or(settings.tls.http);
   settings.tls.certificate = arguments.tls_certificate.value_or(settings.tls.certificate);
   settings.tls.key = arguments.tls_key.value_or(settings.tls.key);
   settings.plain_beyond_loopback =
@@ -130,7 +132,9 @@ void add_serve_command(CLI::App& app, int& exit_code) {
                       "Written when the server listens: addresses and process id as JSON");
   command->add_option("--tls-listen", arguments->tls_listen,
                       "Agents' port with TLS, HOST:PORT; wants certificate and key");
-  command->add_option("--tls-certificate", arguments->tls_certificate, "PEM file of the TLS port");
+  command->add_option("--tls-http", arguments->tls_http,
+                      "Page's port with TLS (HTTPS), HOST:PORT; wants certificate and key");
+  command->add_option("--tls-certificate", arguments->tls_certificate, "PEM file of the TLS ports");
   command->add_option("--tls-key", arguments->tls_key, "PEM file: the certificate's private key");
   command->add_flag("--log-json", arguments->log_json, "Log one JSON object a line");
   command->add_flag("--plain-beyond-loopback", arguments->plain_beyond_loopback,

@@ -24,7 +24,11 @@ std::optional<ScoredGame> scored_game(const storage::MatchRecord& match,
 }
 
 storage::Expected<std::optional<StoredTournament>> stored_tournament(storage::Reader& reader,
-                                                                     std::string_view id) {
+                                                                     std::string_view id,
+                                                                     storage::UnixMicros until) {
+  const auto is_seen = [until](const std::optional<storage::UnixMicros>& finished) {
+    return until == no_horizon || (finished && *finished <= until);
+  };
   const auto tournaments = reader.tournaments();
   if (!tournaments) {
     return tl::unexpected(tournaments.error());
@@ -51,12 +55,13 @@ storage::Expected<std::optional<StoredTournament>> stored_tournament(storage::Re
     }
     std::vector<ScoredGame> scored;
     for (const storage::GameRecord& game : *games) {
-      if (const auto counts = scored_game(match, game)) {
+      if (const auto counts = scored_game(match, game); counts && is_seen(game.finished)) {
         scored.push_back(*counts);
       }
     }
-    stored.book.take(match.pairing.value_or(0), scored,
-                     match.over ? MatchStage::over : MatchStage::going_on);
+    stored.book.take(
+        match.pairing.value_or(0), scored,
+        match.over && is_seen(match.finished) ? MatchStage::over : MatchStage::going_on);
   }
   stored.book.plan();
   return stored;

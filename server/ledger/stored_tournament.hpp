@@ -4,6 +4,7 @@
 //   if (stored && *stored) print((*stored)->book.schedule());
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string_view>
 
@@ -17,9 +18,13 @@ struct StoredTournament {
   TournamentBook book;
 };
 
-// Nothing: there is no such tournament. Settings that cannot be read are an error.
+// What it takes for whoever is told of everything later.
+inline constexpr storage::UnixMicros no_horizon{INT64_MAX};
+
+// Nothing: there is no such tournament. Settings that cannot be read are an error. Games and
+// matches that ended after `until` have not ended yet.
 [[nodiscard]] storage::Expected<std::optional<StoredTournament>> stored_tournament(
-    storage::Reader& reader, std::string_view id);
+    storage::Reader& reader, std::string_view id, storage::UnixMicros until = no_horizon);
 
 // Nothing: it is void or goes on.
 [[nodiscard]] std::optional<ScoredGame> scored_game(const storage::MatchRecord& match,

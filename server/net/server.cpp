@@ -119,8 +119,8 @@ std::optional<std::string> exposed(const settings::ServerSettings& settings) {
     const auto endpoint = parse_endpoint(address);
     if (endpoint && !is_loopback(*endpoint)) {
       return fmt::format(
-          "{} is open to others and not encrypted; tls.certificate and tls.listen encrypt, "
-          "--plain-beyond-loopback allows it",
+          "{} is open to others and not encrypted; tls.certificate with tls.listen and tls.http "
+          "encrypt, --plain-beyond-loopback allows it",
           address);
     }
   }
@@ -152,6 +152,7 @@ class Server::Impl {
   }
   [[nodiscard]] Endpoint agents() const { return agents_; }
   [[nodiscard]] std::optional<Endpoint> page() const { return page_; }
+  [[nodiscard]] std::optional<Endpoint> tls_page() const { return tls_page_; }
   [[nodiscard]] std::optional<Endpoint> tls_agents() const { return tls_agents_; }
 
  private:
@@ -160,6 +161,9 @@ class Server::Impl {
   tl::expected<void, std::string> listen();
   tl::expected<void, std::string> listen_tls();
   tl::expected<void, std::string> listen_http();
+  tl::expected<std::optional<Endpoint>, std::string> open_page(const std::string& address,
+                                                               TlsContext* tls);
+  void make_http();
   [[nodiscard]] web::Sources page_sources();
   [[nodiscard]] std::function<void(web::Then)> from_games(std::function<web::Page()> make);
   tl::expected<void, std::string> say_ready();
@@ -186,6 +190,7 @@ class Server::Impl {
   Endpoint agents_;
   std::optional<Endpoint> tls_agents_;
   std::optional<Endpoint> page_;
+  std::optional<Endpoint> tls_page_;
   bool stopping_ = false;
   bool shut_ = false;
   bool said_ready_ = false;
@@ -223,9 +228,12 @@ tl::expected<void, std::string> Server::Impl::start() {
   if (http_) {
     http_->start();
   }
-  spdlog::info("agents on {}, by TLS on {}, page on {}, database {}, process {}",
-               to_string(agents_), tls_agents_ ? to_string(*tls_agents_) : "no port",
-               page_ ? to_string(*page_) : "no port", options_.settings.database, ::getpid());
+  const auto text = [](const std::optional<Endpoint>& port) {
+    return port ? to_string(*port) : std::string("no port");
+  };
+  spdlog::info("agents on {}, by TLS on {}, page on {}, by TLS on {}, database {}, process {}",
+               to_string(agents_), text(tls_agents_), text(page_), text(tls_page_),
+               options_.settings.database, ::getpid());
   return say_ready();
 }
 
@@ -236,8 +244,9 @@ tl::expected<void, std::string> Server::Impl::say_ready() {
   said_ready_ = true;
   return write_ready_file(
       *options_.ready_file,
-      fmt::format("{{\"agents\": \"{}\", \"agents_tls\": {}, \"http\": {}, \"pid\": {}}}\n",
-                  to_string(agents_), quoted(tls_agents_), quoted(page_), ::getpid()));
+      fmt::format(
+          "{{\"agents\": \"{}\", \"agents_tls\": {}, \"http\": {}, \"https\": {}, \"pid\": {}}}\n",
+          to_string(agents_), quoted(tls_agents_), quoted(page_), quoted(tls_page_), ::getpid()));
 }
 
 tl::expected<void, std::string> Server::Impl::open_database() {
@@ -302,7 +311,7 @@ tl::expected<void, std::string> Server::Impl::listen() {
 
 tl::expected<void, std::string> Server::Impl::listen_tls() {
   const settings::TlsSettings& tls = options_.settings.tls;
-  if (tls.listen.empty() && tls.certificate.empty() && tls.key.empty()) {
+  if (tls.listen.empty() && tls.http.empty() && tls.certificate.empty() && tls.key.empty()) {
     return {};
   }
   auto context = load_tls(tls);
@@ -334,13 +343,45 @@ tl::expected<void, std::string> Server::Impl::listen_tls() {
 }
 
 tl::expected<void, std::string> Server::Impl::listen_http() {
-  if (options_.settings.http.empty()) {
+  const std::string& plain = options_.settings.http;
+  const std::string& encrypted = options_.settings.tls.http;
+  if (plain.empty() && encrypted.empty()) {
     return {};
   }
-  const auto endpoint = endpoint_of(options_.settings.http);
+  make_http();
+  auto page = open_page(plain, nullptr);
+  if (!page) {
+    return tl::unexpected(page.error());
+  }
+  auto tls_page = open_page(encrypted, tls_.get());
+  if (!tls_page) {
+    return tl::unexpected(tls_page.error());
+  }
+  page_ = std::move(*page);
+  tls_page_ = std::move(*tls_page);
+  return {};
+}
+
+tl::expected<std::optional<Endpoint>, std::string> Server::Impl::open_page(
+    const std::string& address, TlsContext* tls) {
+  if (address.empty()) {
+    return std::nullopt;
+  }
+  const auto endpoint = endpoint_of(address);
   if (!endpoint) {
     return tl::unexpected(endpoint.error());
   }
+  auto bound = http_->open(endpoint->host, endpoint->port, tls);
+  if (!bound && options_.page_port == PagePort::or_a_free_one) {
+    bound = http_->open(endpoint->host, 0, tls);
+  }
+  if (!bound) {
+    return tl::unexpected(bound.error());
+  }
+  return Endpoint{endpoint->host, *bound};
+}
+
+void Server::Impl::make_http() {
   web::HttpServer::Options options{page_sources(), {}};
   options.publisher.watch = [this](web::Topic topic, web::Ticket ticket) {
     asio::post(io_, [this, topic, ticket] { broadcast_->watch(topic, ticket); });
@@ -352,15 +393,6 @@ tl::expected<void, std::string> Server::Impl::listen_http() {
   web_archive_ =
       std::make_unique<Archive>(options_.settings.database, http_->io(), http_->workers());
   broadcast_ = std::make_unique<Broadcast>(io_, *arena_, http_->feed());
-  auto bound = http_->open(endpoint->host, endpoint->port);
-  if (!bound && options_.page_port == PagePort::or_a_free_one) {
-    bound = http_->open(endpoint->host, 0);
-  }
-  if (!bound) {
-    return bound;
-  }
-  page_ = Endpoint{endpoint->host, http_->port()};
-  return {};
 }
 
 web::Sources Server::Impl::page_sources() {
@@ -469,6 +501,10 @@ void Server::post(std::function<void(MatchHost&)> work) {
 Endpoint Server::agents_endpoint() const {
   return impl_->agents();
 }
+std::optional<Endpoint> Server::https_endpoint() const {
+  return impl_->tls_page();
+}
+
 std::optional<Endpoint> Server::tls_endpoint() const {
   return impl_->tls_agents();
 }

@@ -70,6 +70,7 @@ class Server {
   [[nodiscard]] Endpoint agents_endpoint() const;
   [[nodiscard]] std::optional<Endpoint> tls_endpoint() const;
   [[nodiscard]] std::optional<Endpoint> http_endpoint() const;
+  [[nodiscard]] std::optional<Endpoint> https_endpoint() const;
 
  private:
   class Impl;

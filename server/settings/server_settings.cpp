@@ -118,6 +118,8 @@ Keys<ServerSettings> server_key_table() {
   keys.add(
       "tls.listen", OrNone<HostPort>{}, [](auto& s) -> auto& { return s.tls.listen; });
   keys.add(
+      "tls.http", OrNone<HostPort>{}, [](auto& s) -> auto& { return s.tls.http; });
+  keys.add(
       "tls.certificate", OrNone<Line>{{"the name of a PEM file"}},
       [](auto& s) -> auto& { return s.tls.certificate; });
   keys.add(

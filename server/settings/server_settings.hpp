@@ -22,11 +22,12 @@ struct LogSettings {
   bool json = false;           // one JSON object a line
 };
 
-// With a certificate agents may connect by TLS.
+// With a certificate agents and the page's readers may connect by TLS.
 struct TlsSettings {
-  std::string listen;       // agents; empty: no port of its own
-  std::string certificate;  // PEM file: the server's first, then its issuers'
-  std::string key;          // PEM file
+  std::string listen{};       // agents; empty: no port of its own
+  std::string certificate{};  // PEM file: the server's first, then its issuers'
+  std::string key{};          // PEM file
+  std::string http{};         // page and JSON API; empty: no port of its own
 };
 
 struct ServerSettings {

@@ -19,7 +19,8 @@ namespace {
 
 constexpr timeval reply_patience{30, 0};
 
-tl::unexpected<std::string> call_error(const HttpCall& call, const boost::system::error_code& error) {
+tl::unexpected<std::string> call_error(const HttpCall& call,
+                                       const boost::system::error_code& error) {
   return tl::unexpected(fmt::format("{}: {}", call.server, error.message()));
 }
 
@@ -61,8 +62,10 @@ tl::expected<HttpReply, std::string> http_call(const HttpCall& call) {
   if (asio::connect(socket, places, error); error) {
     return call_error(call, error);
   }
-  ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &reply_patience, sizeof reply_patience);
-  ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_SNDTIMEO, &reply_patience, sizeof reply_patience);
+  ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_RCVTIMEO, &reply_patience,
+               sizeof reply_patience);
+  ::setsockopt(socket.native_handle(), SOL_SOCKET, SO_SNDTIMEO, &reply_patience,
+               sizeof reply_patience);
   if (http::write(socket, request_of(call), error); error) {
     return call_error(call, error);
   }

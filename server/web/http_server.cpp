@@ -1,9 +1,12 @@
 #include "server/web/http_server.hpp"
 
-#include <fmt/format.h>
+#include <openssl/ssl.h>
+#include <openssl/x509v3.h>
 #include <sys/resource.h>
+#include <sys/socket.h>
 
-#include <algorithm>
+#include <fmt/format.h>
+#include <array>
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -16,11 +19,13 @@
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
+#include <boost/beast/ssl.hpp>
 #include <boost/beast/websocket.hpp>
-#include <charconv>
+#include <boost/beast/websocket/ssl.hpp>
 #include <optional>
 #include <utility>
 
+#include "server/web/http_head.hpp"
 #include "server/web/pages.hpp"
 
 namespace poolhall::web {
@@ -35,93 +40,89 @@ namespace {
 
 constexpr auto awaited = asio::as_tuple(asio::use_awaitable);
 constexpr std::chrono::seconds patience{30};
-constexpr std::uint32_t header_bytes = 8 * 1024;
-constexpr std::uint64_t body_bytes = 256 * 1024;  // a tournament of 256 entries
+constexpr std::chrono::seconds handshake_patience{10};
+constexpr std::chrono::seconds farewell{2};
+constexpr std::size_t farewell_bytes = 1024 * 1024;
 constexpr std::size_t connections = 4096;
+constexpr std::size_t connections_from_one = 2048;  // a whole lecture hall may share an address
 constexpr std::chrono::milliseconds breath{100};
 constexpr int socket_buffer = 128 * 1024;  // what a spectator that does not read costs the system
 constexpr std::size_t spectator_message = 1024;  // spectators have nothing to say
 // Above the threads of games: what people see may come a little later, a clock may not.
-constexpr int niceness = 5;
+constexpr int niceness = 10;
 
-constexpr std::string_view security_policy =
-    "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data:; "
-    "connect-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'";
-
-std::string_view text_of(beast::string_view text) {
-  return {text.data(), text.size()};
+// For the calling thread, on Linux.
+void give_way() {
+  const int own = ::getpriority(PRIO_PROCESS, 0);
+  static_cast<void>(::setpriority(PRIO_PROCESS, 0, own + niceness));
 }
 
-std::string_view without_port(std::string_view host) {
-  if (host.starts_with('[')) {
-    return host.substr(0, std::min(host.find(']') + 1, host.size()));
-  }
-  return host.substr(0, std::min(host.find(':'), host.size()));
+constexpr std::string_view no_room =
+    "HTTP/1.1 503 Service Unavailable\r\nContent-Type: application/json\r\nConnection: close\r\n"
+    "Content-Length: 81\r\n\r\n"
+    R"({"error":{"code":"server_full","reason":"too many connections; come back later"}})";
+constexpr std::string_view go_on = "HTTP/1.1 100 Continue\r\n\r\n";
+
+bool is_for(std::string_view name, SSL_CTX* certified) {
+  X509* const certificate = SSL_CTX_get0_certificate(certified);
+  const std::string text{name};
+  return certificate != nullptr &&
+         (X509_check_host(certificate, text.data(), text.size(), 0, nullptr) == 1 ||
+          X509_check_ip_asc(certificate, text.c_str(), 0) == 1);
 }
 
-// Browsers name the site whose page asks, but for their own GETs.
-bool is_own_origin(std::string_view origin, std::string_view host) {
-  const auto scheme = origin.find("://");
-  return origin.empty() || (scheme != std::string_view::npos && origin.substr(scheme + 3) == host);
-}
-
-// "/ws/lobby", "/ws/games/17"; "/ws" and "/ws?game=17" are the same.
-std::optional<Topic> topic_of(std::string_view path) {
-  if (path == "/ws/lobby" || path == "/ws") {
-    return Topic::lobby;
+// So that what was said last is not lost with what the other side still sends.
+template <class Stream>
+asio::awaitable<void> part_from(Stream& stream) {
+  beast::get_lowest_layer(stream).expires_after(farewell);
+  if constexpr (requires { stream.async_shutdown(awaited); }) {
+    co_await stream.async_shutdown(awaited);
   }
-  constexpr std::string_view games = "/ws/games/";
-  constexpr std::string_view query = "/ws?game=";
-  if (!path.starts_with(games) && !path.starts_with(query)) {
-    return std::nullopt;
-  }
-  path.remove_prefix(path.starts_with(games) ? games.size() : query.size());
-  std::int64_t game = 0;
-  const auto [end, error] = std::from_chars(path.data(), path.data() + path.size(), game);
-  if (error != std::errc{} || end != path.data() + path.size() || game <= 0) {
-    return std::nullopt;
-  }
-  return game_topic(game);
-}
-
-http::response<http::string_body> response_of(Page page, const Request& request) {
-  http::response<http::string_body> response{http::int_to_status(page.status), request.version()};
-  response.set(http::field::content_type, page.type);
-  response.set("X-Content-Type-Options", "nosniff");
-  response.set("Referrer-Policy", "no-referrer");
-  response.set("Content-Security-Policy", security_policy);
-  response.keep_alive(request.keep_alive());
-  if (page.etag.empty()) {
-    response.set(http::field::cache_control, "no-store");
-  } else {
-    response.set(http::field::cache_control, "no-cache");  // may be kept, must be asked about
-    response.set(http::field::etag, page.etag);
-    if (text_of(request[http::field::if_none_match]) == page.etag) {
-      response.result(http::status::not_modified);
-      return response;
+  boost::system::error_code ignored;
+  beast::get_lowest_layer(stream).socket().shutdown(tcp::socket::shutdown_send, ignored);
+  std::array<char, 4096> bytes;
+  for (std::size_t total = 0; total < farewell_bytes;) {
+    const auto [failed, got] =
+        co_await beast::get_lowest_layer(stream).async_read_some(asio::buffer(bytes), awaited);
+    if (failed) {
+      co_return;
     }
+    total += got;
   }
-  response.body() = std::move(page.body);
-  response.prepare_payload();
-  if (request.method() == http::verb::head) {
-    response.body().clear();
-  }
-  return response;
 }
 
-// What to say to a request that could not be read; nothing to one that never came.
-std::optional<Page> refusal_of(const boost::system::error_code& error) {
-  if (error == http::error::body_limit) {
-    return refusal(413, "too_large", fmt::format("expected at most {} bytes", body_bytes));
+using Parser = http::request_parser<http::string_body>;
+
+// The request, or what to say instead and whether it is worth saying anything.
+struct Reading {
+  std::optional<Request> request{};
+  std::optional<Page> refusal{};
+};
+
+template <class Stream>
+asio::awaitable<Reading> read_request(Stream& stream, beast::flat_buffer& buffer) {
+  Parser parser;
+  parser.header_limit(header_bytes);
+  parser.body_limit(boost::none);  // until it is known where it goes
+  beast::get_lowest_layer(stream).expires_after(patience);
+  if (const auto [failed, got] = co_await http::async_read_header(stream, buffer, parser, awaited);
+      failed) {
+    co_return Reading{{}, refusal_of(failed)};
   }
-  if (error == http::error::header_limit) {
-    return refusal(431, "too_large", fmt::format("expected a head of {} bytes", header_bytes));
+  const std::uint64_t limit = Site::body_limit(text_of(parser.get().target()));
+  if (parser.content_length().value_or(0) > limit) {
+    co_return Reading{{}, too_long_a_body(limit)};
   }
-  if (error == http::error::end_of_stream || error == http::error::partial_message ||
-      error.category() != http::make_error_code(http::error::bad_version).category()) {
-    return std::nullopt;
+  parser.body_limit(limit);
+  if (beast::iequals(parser.get()[http::field::expect], "100-continue")) {
+    co_await asio::async_write(stream, asio::buffer(go_on), awaited);
   }
-  return refusal(400, "bad_request", "this is no HTTP");
+  if (const auto [failed, got] = co_await http::async_read(stream, buffer, parser, awaited);
+      failed) {
+    co_return Reading{
+        {}, failed == http::error::body_limit ? too_long_a_body(limit) : refusal_of(failed)};
+  }
+  co_return Reading{parser.release(), {}};
 }
 
 // What a spectator sends is read and forgotten, so that its pongs and its end are seen.
@@ -159,39 +160,40 @@ asio::awaitable<void> tell(std::shared_ptr<Socket> socket, std::shared_ptr<Spect
 HttpServer::HttpServer(Options options)
     : workers_(1),
       site_(io_, workers_, options.sources),
-      feed_(io_, options.sources.delay, std::move(options.publisher)),
-      acceptor_(io_) {}
+      feed_(io_, options.sources.delay, std::move(options.publisher)) {}
 
 HttpServer::~HttpServer() {
   stop();
 }
 
-tl::expected<void, std::string> HttpServer::open(const std::string& host, std::uint16_t port) {
+tl::expected<std::uint16_t, std::string> HttpServer::open(const std::string& host,
+                                                          std::uint16_t port,
+                                                          asio::ssl::context* tls) {
   boost::system::error_code error;
   const auto address = asio::ip::make_address(host, error);
   if (error) {
     return tl::unexpected(host + ": expected the address of this machine to listen on");
   }
   const tcp::endpoint local{address, port};
-  if (!acceptor_.open(local.protocol(), error) &&
-      !acceptor_.set_option(tcp::acceptor::reuse_address(true), error) &&
-      !acceptor_.bind(local, error)) {
-    acceptor_.listen(1024, error);
+  tcp::acceptor acceptor{io_};
+  if (!acceptor.open(local.protocol(), error) &&
+      !acceptor.set_option(tcp::acceptor::reuse_address(true), error) &&
+      !acceptor.bind(local, error)) {
+    acceptor.listen(1024, error);
   }
   if (error) {
-    acceptor_.close();
     return tl::unexpected(fmt::format("{}:{}: {}", host, port, error.message()));
   }
-  host_ = host;
-  return {};
+  doors_.push_back({std::move(acceptor), host, tls});
+  return doors_.back().acceptor.local_endpoint(error).port();
 }
 
 void HttpServer::start() {
-  asio::co_spawn(io_, accept_loop(), asio::detached);
-  // 0 is the calling thread, on Linux; the pool has one.
-  const auto give_way = [] { static_cast<void>(::setpriority(PRIO_PROCESS, 0, niceness)); };
-  asio::post(workers_, give_way);
-  thread_ = std::thread([this, give_way] {
+  for (Door& door : doors_) {
+    asio::co_spawn(io_, accept_loop(door), asio::detached);
+  }
+  asio::post(workers_, give_way);  // the pool has one
+  thread_ = std::thread([this] {
     give_way();
     const auto work = asio::make_work_guard(io_);
     io_.run();
@@ -204,7 +206,9 @@ void HttpServer::stop() {
   }
   asio::post(io_, [this] {
     boost::system::error_code error;
-    acceptor_.close(error);
+    for (Door& door : doors_) {
+      door.acceptor.close(error);
+    }
     feed_.close();
     io_.stop();
   });
@@ -212,20 +216,12 @@ void HttpServer::stop() {
   workers_.join();
 }
 
-std::uint16_t HttpServer::port() const {
-  boost::system::error_code error;
-  return acceptor_.local_endpoint(error).port();
-}
-
-asio::awaitable<void> HttpServer::accept_loop() {
-  while (acceptor_.is_open()) {
-    auto [error, socket] = co_await acceptor_.async_accept(awaited);
-    if (!error && open_ < connections) {
-      ++open_;
-      const auto peer = socket.remote_endpoint(error);
-      asio::co_spawn(io_, serve(beast::tcp_stream{std::move(socket)}, peer.address().to_string()),
-                     [this](std::exception_ptr) { --open_; });
-    } else if (error && error != asio::error::operation_aborted) {
+asio::awaitable<void> HttpServer::accept_loop(Door& door) {
+  while (door.acceptor.is_open()) {
+    auto [error, socket] = co_await door.acceptor.async_accept(awaited);
+    if (!error) {
+      welcome(std::move(socket), door);
+    } else if (error != asio::error::operation_aborted) {
       // Most likely no file descriptor is left: those that there are will be free again.
       asio::steady_timer pause{io_, breath};
       co_await pause.async_wait(awaited);
@@ -233,43 +229,78 @@ asio::awaitable<void> HttpServer::accept_loop() {
   }
 }
 
+void HttpServer::welcome(tcp::socket socket, const Door& door) {
+  boost::system::error_code error;
+  Visitor visitor{socket.remote_endpoint(error).address().to_string(), door};
+  const auto known = open_from_.find(visitor.address);
+  if (open_ >= connections ||
+      (known != open_from_.end() && known->second >= connections_from_one)) {
+    if (door.tls == nullptr) {
+      // Into an empty buffer: it fits or nobody is there.
+      static_cast<void>(::send(socket.native_handle(), no_room.data(), no_room.size(),
+                               MSG_DONTWAIT | MSG_NOSIGNAL));
+    }
+    return;
+  }
+  ++open_;
+  const auto from = open_from_.try_emplace(visitor.address, 0).first;
+  ++from->second;
+  const auto gone = [this, from](std::exception_ptr) {
+    --open_;
+    if (--from->second == 0) {
+      open_from_.erase(from);
+    }
+  };
+  if (door.tls == nullptr) {
+    asio::co_spawn(io_, serve(beast::tcp_stream{std::move(socket)}, std::move(visitor)), gone);
+  } else {
+    asio::co_spawn(io_, shake_hands(std::move(socket), std::move(visitor)), gone);
+  }
+}
+
+asio::awaitable<void> HttpServer::shake_hands(tcp::socket socket, Visitor visitor) {
+  beast::ssl_stream<beast::tcp_stream> stream{beast::tcp_stream{std::move(socket)},
+                                              *visitor.door.tls};
+  beast::get_lowest_layer(stream).expires_after(handshake_patience);
+  if (const auto [failed] =
+          co_await stream.async_handshake(asio::ssl::stream_base::server, awaited);
+      !failed) {
+    co_await serve(std::move(stream), std::move(visitor));
+  }
+}
+
 template <class Stream>
-asio::awaitable<void> HttpServer::serve(Stream stream, std::string address) {
-  beast::flat_buffer buffer{header_bytes + body_bytes};
+asio::awaitable<void> HttpServer::serve(Stream stream, Visitor visitor) {
+  beast::flat_buffer buffer{header_bytes + Site::most_body_bytes};
   for (bool keep = true; keep;) {
-    http::request_parser<http::string_body> parser;
-    parser.header_limit(header_bytes);
-    parser.body_limit(body_bytes);
-    beast::get_lowest_layer(stream).expires_after(patience);
-    const auto [failed, got] = co_await http::async_read(stream, buffer, parser, awaited);
-    if (failed) {
-      if (const auto page = refusal_of(failed)) {
-        auto response = response_of(*page, parser.get());
-        response.keep_alive(false);
-        co_await http::async_write(stream, response, awaited);
-      }
+    Reading reading = co_await read_request(stream, buffer);
+    if (reading.refusal) {
+      auto response = response_of(std::move(*reading.refusal), Request{});
+      response.keep_alive(false);
+      co_await http::async_write(stream, response, awaited);
+    }
+    if (!reading.request) {
       break;
     }
-    Request request = parser.release();
+    Request request = std::move(*reading.request);
     if (websocket::is_upgrade(request)) {
-      co_await spectate(std::move(stream), std::move(request));
+      co_await spectate(std::move(stream), std::move(request), std::move(visitor));
       co_return;
     }
-    const auto response = response_of(co_await page_for(request, address), request);
+    const auto response = response_of(co_await page_for(request, visitor), request);
     beast::get_lowest_layer(stream).expires_after(patience);
     const auto [broken, sent] = co_await http::async_write(stream, response, awaited);
     keep = request.keep_alive() && !broken;
   }
-  boost::system::error_code error;
-  beast::get_lowest_layer(stream).socket().shutdown(tcp::socket::shutdown_send, error);
+  co_await part_from(stream);
 }
 
 template <class Stream>
-asio::awaitable<void> HttpServer::spectate(Stream stream, Request request) {
+asio::awaitable<void> HttpServer::spectate(Stream stream, Request request, Visitor visitor) {
   const std::string_view host = text_of(request[http::field::host]);
   const std::string_view origin = text_of(request[http::field::origin]);
   const auto topic = topic_of(text_of(request.target()));
-  if (!topic || !is_own_host(host) || !is_own_origin(origin, host)) {
+  if (!topic || !is_own_host(host, visitor.door) || !is_own_origin(origin, host)) {
     const auto response = response_of(
         topic ? refusal(403, "wrong_origin", "this page may not watch here")
               : refusal(404, "not_found", "expected /ws/lobby or /ws/games/ and a game's number"),
@@ -301,23 +332,32 @@ asio::awaitable<void> HttpServer::spectate(Stream stream, Request request) {
   }
 }
 
-// A page of somebody else's that a browser was made to ask names another host.
-bool HttpServer::is_own_host(std::string_view host) const {
-  const std::string_view name = without_port(host);
-  return name == "localhost" || name == "127.0.0.1" || name == "[::1]" || name == host_ ||
-         host_ == "0.0.0.0" || host_ == "::";
+// A page of somebody else's that a browser was made to ask names another host. By TLS the server
+// has the names that its certificate is for.
+bool HttpServer::is_own_host(std::string_view host, const Door& door) {
+  std::string_view name = without_port(host);
+  if (name.starts_with('[') && name.ends_with(']')) {
+    name = name.substr(1, name.size() - 2);
+  }
+  if (name == "localhost" || name == "127.0.0.1" || name == "::1") {
+    return true;
+  }
+  if (door.tls != nullptr) {
+    return is_for(name, door.tls->native_handle());
+  }
+  return name == door.host || door.host == "0.0.0.0" || door.host == "::";
 }
 
-asio::awaitable<Page> HttpServer::page_for(const Request& request, std::string address) {
+asio::awaitable<Page> HttpServer::page_for(const Request& request, const Visitor& visitor) {
   const std::string_view host = text_of(request[http::field::host]);
   const std::string_view origin = text_of(request[http::field::origin]);
-  if (!is_own_host(host)) {
+  if (!is_own_host(host, visitor.door)) {
     co_return refusal(421, "wrong_host", "this server has another name");
   }
   if (!is_own_origin(origin, host)) {
     co_return refusal(403, "wrong_origin", "another site's page may not ask this");
   }
-  co_return co_await site_.answer(request, std::move(address));
+  co_return co_await site_.answer(request, visitor.address);
 }
 
 }  // namespace poolhall::web

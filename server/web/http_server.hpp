@@ -2,7 +2,8 @@
 // thousands who watch cost those who play next to nothing.
 //
 //   HttpServer http{{.sources = sources, .publisher = publisher}};
-//   if (auto bound = http.open(address, port); !bound) die(bound.error());
+//   if (auto port = http.open(address, 0); !port) die(port.error());
+//   if (auto port = http.open(other, 0, &certificate); !port) die(port.error());   // HTTPS too
 //   http.start();
 //   http.feed().publish(game_topic(17), message);   // from any thread
 //   http.stop();                                    // joins the thread
@@ -12,8 +13,11 @@
 #include <boost/asio/awaitable.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
+#include <boost/asio/ssl/context.hpp>
 #include <boost/asio/thread_pool.hpp>
 #include <cstdint>
+#include <list>
+#include <map>
 #include <string>
 #include <thread>
 
@@ -36,10 +40,12 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
 
-  [[nodiscard]] tl::expected<void, std::string> open(const std::string& host, std::uint16_t port);
+  // Before start(); may be called more than once. The port that it is, where 0 was asked for; the
+  // error is one line. With `tls`, which must outlive this, it is HTTPS.
+  [[nodiscard]] tl::expected<std::uint16_t, std::string> open(
+      const std::string& host, std::uint16_t port, boost::asio::ssl::context* tls = nullptr);
   void start();
   void stop();
-  [[nodiscard]] std::uint16_t port() const;
 
   // The web thread's, and threads for what takes longer.
   [[nodiscard]] boost::asio::io_context& io() { return io_; }
@@ -48,21 +54,35 @@ class HttpServer {
   [[nodiscard]] std::size_t spectators() const { return spectators_; }
 
  private:
-  boost::asio::awaitable<void> accept_loop();
+  // An address that is listened on.
+  struct Door {
+    boost::asio::ip::tcp::acceptor acceptor;
+    std::string host;
+    boost::asio::ssl::context* tls;  // null: plain
+  };
+  struct Visitor {
+    std::string address;
+    const Door& door;
+  };
+
+  boost::asio::awaitable<void> accept_loop(Door& door);
+  void welcome(boost::asio::ip::tcp::socket socket, const Door& door);
+  [[nodiscard]] boost::asio::awaitable<void> shake_hands(boost::asio::ip::tcp::socket socket,
+                                                         Visitor visitor);
   template <class Stream>
-  boost::asio::awaitable<void> serve(Stream stream, std::string address);
+  boost::asio::awaitable<void> serve(Stream stream, Visitor visitor);
   template <class Stream>
-  boost::asio::awaitable<void> spectate(Stream stream, Request request);
-  boost::asio::awaitable<Page> page_for(const Request& request, std::string address);
-  [[nodiscard]] bool is_own_host(std::string_view host) const;
+  boost::asio::awaitable<void> spectate(Stream stream, Request request, Visitor visitor);
+  boost::asio::awaitable<Page> page_for(const Request& request, const Visitor& visitor);
+  [[nodiscard]] static bool is_own_host(std::string_view host, const Door& door);
 
   boost::asio::io_context io_{1};
   boost::asio::thread_pool workers_;
   Site site_;
   LiveFeed feed_;
-  boost::asio::ip::tcp::acceptor acceptor_;
-  std::string host_;
+  std::list<Door> doors_;
   std::size_t open_ = 0;
+  std::map<std::string, std::size_t> open_from_;  // by address
   std::atomic<std::size_t> spectators_ = 0;
   std::thread thread_;
 };

@@ -30,6 +30,7 @@ class Horizon {
                                                         std::chrono::microseconds{delay}.count()}) {
   }
   [[nodiscard]] bool sees(storage::UnixMicros when) const { return when <= until_; }
+  [[nodiscard]] storage::UnixMicros until() const { return until_; }
   // The game as it is seen: not over, if its end is too new.
   [[nodiscard]] storage::GameRecord seen(storage::GameRecord game) const {
     if (game.over && (!game.finished || !sees(*game.finished))) {

@@ -1,14 +1,8 @@
 #include "server/web/routes.hpp"
 
-#include <algorithm>
 #include <array>
-#include <vector>
-
-#include "protocol/json_writer.hpp"
 
 namespace poolhall::web {
-
-using protocol::JsonWriter;
 
 namespace {
 
@@ -83,54 +77,6 @@ bool fits(std::string_view pattern, std::string_view path) {
   return pattern.empty() && path.empty();
 }
 
-void write_parameters(JsonWriter& out, std::string_view path) {
-  out.key("parameters").begin_array();
-  while (path.starts_with('/')) {
-    const std::string_view segment = take_segment(path);
-    if (!is_parameter(segment)) {
-      continue;
-    }
-    const std::string_view name = segment.substr(1, segment.size() - 2);
-    out.begin_object().key("name").string(name).key("in").string("path");
-    out.key("required").boolean(true).key("schema").begin_object();
-    out.key("type")
-        .string(name == "tournament" || name == "agent" || name == "table" ? "string" : "integer")
-        .end_object()
-        .end_object();
-  }
-  out.end_array();
-}
-
-void write_response(JsonWriter& out, std::string_view status, std::string_view meaning,
-                    std::string_view type) {
-  out.key(status).begin_object().key("description").string(meaning);
-  out.key("content").begin_object().key(type).begin_object().end_object().end_object();
-  out.end_object();
-}
-
-void write_operation(JsonWriter& out, const Route& route) {
-  std::string method{route.method};
-  std::transform(method.begin(), method.end(), method.begin(),
-                 [](char c) { return static_cast<char>(c - 'A' + 'a'); });
-  out.key(method).begin_object().key("summary").string(route.summary);
-  write_parameters(out, route.path);
-  if (!route.request.empty()) {
-    out.key("requestBody").begin_object().key("required").boolean(true);
-    out.key("description").string(route.request).key("content").begin_object();
-    out.key("*/*").begin_object().end_object().end_object().end_object();
-  }
-  out.key("responses").begin_object();
-  write_response(out, route.answers, route.summary, route.type);
-  write_response(out, "default", "{\"error\": {\"code\": ..., \"reason\": ...}}",
-                 "application/json");
-  out.end_object();
-  if (route.who == Route::For::host) {
-    out.key("security").begin_array().begin_object();
-    out.key("adminToken").begin_array().end_array().end_object().end_array();
-  }
-  out.end_object();
-}
-
 }  // namespace
 
 std::span<const Route> routes() {
@@ -150,23 +96,6 @@ Routing route_of(std::string_view method, std::string_view path) {
     missing = NoRoute::method;
   }
   return missing;
-}
-
-std::string openapi_document() {
-  JsonWriter out;
-  out.begin_object().key("openapi").string("3.1.0").key("info").begin_object();
-  out.key("title").string("Poolhall").key("version").string("1").end_object();
-  out.key("paths").begin_object();
-  for (const Route& route : table) {
-    // One method a path, so that each path stands here once.
-    out.key(route.path).begin_object();
-    write_operation(out, route);
-    out.end_object();
-  }
-  out.end_object().key("components").begin_object().key("securitySchemes").begin_object();
-  out.key("adminToken").begin_object().key("type").string("http");
-  out.key("scheme").string("bearer").end_object().end_object().end_object().end_object();
-  return std::move(out).text();
 }
 
 }  // namespace poolhall::web

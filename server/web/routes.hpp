@@ -31,7 +31,7 @@ enum class NoRoute : std::uint8_t { path, method };  // there is no such path, o
 using Routing = std::variant<const Route*, NoRoute>;
 [[nodiscard]] Routing route_of(std::string_view method, std::string_view path);
 
-// The table as an OpenAPI 3.1 document.
+// The table as an OpenAPI 3.1 document, with schemas of what is answered (openapi.cpp).
 [[nodiscard]] std::string openapi_document();
 
 }  // namespace poolhall::web

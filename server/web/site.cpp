@@ -3,7 +3,6 @@
 #include <boost/asio/async_result.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
-#include <string_view>
 #include <utility>
 
 #include "server/web/pages.hpp"
@@ -24,7 +23,7 @@ constexpr std::chrono::milliseconds shared_for{500};
 constexpr std::size_t most_kept = 256;
 constexpr std::size_t most_addresses = 4096;
 constexpr std::uint32_t burst_seconds = 2;
-constexpr std::size_t most_scene_bytes = 64 * 1024;
+constexpr std::uint64_t most_scene_bytes = 64 * 1024;
 
 // Waits for a function that takes a `Then`.
 template <class Start>
@@ -81,13 +80,14 @@ asio::awaitable<Page> Site::answer(const Request& request, std::string address) 
   if (reads) {
     co_return co_await get(std::move(path));
   }
-  if (request.body().size() > most_scene_bytes) {
-    co_return refusal(413, "too_large", "a scene has at most 64 KiB");
-  }
   if (!may_simulate(address)) {
     co_return refusal(429, "rate_limited", "too many simulations in too short a time");
   }
   co_return co_await simulate(request.body(), path);
+}
+
+std::uint64_t Site::body_limit(std::string_view target) {
+  return Admin::is_for(target) ? most_body_bytes : most_scene_bytes;
 }
 
 asio::awaitable<Page> Site::get(std::string path) {

@@ -15,6 +15,7 @@
 #include <functional>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "server/storage/database.hpp"
@@ -47,6 +48,10 @@ class Site {
   Site& operator=(const Site&) = delete;
 
   [[nodiscard]] boost::asio::awaitable<Page> answer(const Request& request, std::string address);
+
+  // How long a request's body may be, by its target.
+  static constexpr std::uint64_t most_body_bytes = 256 * 1024;  // a tournament of 256 entries
+  [[nodiscard]] static std::uint64_t body_limit(std::string_view target);
 
  private:
   struct Kept {

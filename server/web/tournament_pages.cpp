@@ -1,30 +1,26 @@
 // Pages of tournaments: progress, standings with error bars, who beat whom, games.
 #include <algorithm>
-#include <map>
 #include <optional>
 #include <vector>
 
-#include "server/settings/tournament_settings.hpp"
+#include "server/ledger/stored_tournament.hpp"
 #include "server/tournament/crosstable.hpp"
 #include "server/tournament/standings.hpp"
 #include "server/web/page_parts.hpp"
 
 namespace poolhall::web {
 
-using tournament::EntryId;
-
 namespace {
 
 constexpr std::size_t most_games_listed = 2'000;
 
-// A tournament's rows, read once.
+// A tournament's rows, read once, and what the ledger makes of them.
 struct Field {
   storage::TournamentRecord record;
-  std::optional<settings::TournamentSettings> settings;
+  std::optional<ledger::TournamentBook> book;  // unset: its settings cannot be read
   std::vector<storage::EntryRecord> entries;
   std::vector<storage::MatchRecord> matches;
   std::vector<std::vector<storage::GameRecord>> games;  // by match
-  std::map<storage::AgentId, EntryId> entry_of;
 };
 
 storage::Expected<Field> read_field(Reader& reader, const storage::TournamentRecord& record,
@@ -35,16 +31,13 @@ storage::Expected<Field> read_field(Reader& reader, const storage::TournamentRec
     return tl::unexpected(entries ? matches.error() : entries.error());
   }
   Field field{.record = record,
-              .settings = {},
+              .book = {},
               .entries = std::move(*entries),
               .matches = std::move(*matches),
-              .games = {},
-              .entry_of = {}};
-  if (auto settings = settings::parse_tournament(record.settings, record.id)) {
-    field.settings = std::move(*settings);
-  }
-  for (std::size_t i = 0; i < field.entries.size(); ++i) {
-    field.entry_of[field.entries[i].agent] = EntryId{static_cast<std::uint32_t>(i)};
+              .games = {}};
+  if (auto stored = ledger::stored_tournament(reader, record.id, horizon.until());
+      stored && *stored) {
+    field.book = std::move((*stored)->book);
   }
   for (const storage::MatchRecord& match : field.matches) {
     auto games = reader.games_of(match.id);
@@ -57,51 +50,6 @@ storage::Expected<Field> read_field(Reader& reader, const storage::TournamentRec
     field.games.push_back(std::move(*games));
   }
   return field;
-}
-
-std::optional<tournament::PlayedGame> played(const Field& field, const storage::MatchRecord& match,
-                                             const storage::GameRecord& game) {
-  const rules::Seat breaker = game.breaker;
-  const auto first = field.entry_of.find(game.agents[rules::index(breaker)]);
-  const auto second = field.entry_of.find(game.agents[rules::index(rules::other(breaker))]);
-  if (!game.over || !game.result || game.result->reason == rules::EndReason::void_game ||
-      first == field.entry_of.end() || second == field.entry_of.end()) {
-    return std::nullopt;
-  }
-  tournament::PlayedGame result;
-  result.pairing = match.pairing.value_or(0);
-  result.number = game.number;
-  result.breaker = first->second;
-  result.other = second->second;
-  result.reason = game.result->reason;
-  if (game.result->winner) {
-    result.winner = *game.result->winner == breaker ? first->second : second->second;
-  }
-  return result;
-}
-
-std::vector<tournament::PlayedGame> played_games(const Field& field) {
-  std::vector<tournament::PlayedGame> games;
-  for (std::size_t i = 0; i < field.matches.size(); ++i) {
-    for (const storage::GameRecord& game : field.games[i]) {
-      if (const auto result = played(field, field.matches[i], game)) {
-        games.push_back(*result);
-      }
-    }
-  }
-  return games;
-}
-
-std::vector<tournament::TieBreak> tie_breaks_of(const Field& field) {
-  std::vector<tournament::TieBreak> breaks;
-  if (field.settings) {
-    for (const std::string& name : field.settings->tie_breaks) {
-      if (const auto known = tournament::tie_break(name)) {
-        breaks.push_back(*known);
-      }
-    }
-  }
-  return breaks;
 }
 
 std::string_view word(ratings::RatingStatus status) {
@@ -131,27 +79,37 @@ void write_estimate(JsonWriter& out, std::string_view key,
   out.key("margin").number(estimate->margin).end_object();
 }
 
-void write_standings(JsonWriter& out, const Field& field, const Names& names,
-                     const tournament::Standings& table) {
+void write_row(JsonWriter& out, const tournament::StandingsRow& row,
+               const tournament::Names& entries) {
+  out.begin_object().key("rank").integer(row.rank);
+  out.key("agent").string(entries.at(tournament::index(row.entry)));
+  out.key("points").number(row.points).key("games").integer(row.games());
+  out.key("wins").integer(row.wins).key("losses").integer(row.losses);
+  out.key("draws").integer(row.draws);
+  out.key("tie_breaks").begin_array();
+  for (const double value : row.tie_breaks) {
+    out.number(value);
+  }
+  out.end_array().key("rating").string(word(row.rating.status));
+  write_estimate(out, "estimate", row.rating.rated);
+  out.key("group").integer(row.rating.group).key("superiority");
+  if (row.superiority) {
+    out.number(*row.superiority);
+  } else {
+    out.null();
+  }
+  out.end_object();
+}
+
+void write_standings(JsonWriter& out, const tournament::Standings& table,
+                     const tournament::Names& entries) {
   out.key("tie_breaks").begin_array();
   for (const tournament::TieBreak tie_break : table.tie_breaks) {
     out.string(tournament::name(tie_break));
   }
   out.end_array().key("standings").begin_array();
   for (const tournament::StandingsRow& row : table.rows) {
-    const storage::EntryRecord& entry = field.entries.at(tournament::index(row.entry));
-    out.begin_object().key("rank").integer(row.rank);
-    out.key("agent").string(name_in(names, entry.agent));
-    out.key("points").number(row.points).key("games").integer(row.games());
-    out.key("wins").integer(row.wins).key("losses").integer(row.losses);
-    out.key("draws").integer(row.draws);
-    out.key("tie_breaks").begin_array();
-    for (const double value : row.tie_breaks) {
-      out.number(value);
-    }
-    out.end_array().key("rating").string(word(row.rating.status));
-    write_estimate(out, "estimate", row.rating.rated);
-    out.key("group").integer(row.rating.group).end_object();
+    write_row(out, row, entries);
   }
   out.end_array();
   write_estimate(out, "break_advantage", table.break_advantage);
@@ -190,10 +148,10 @@ void write_head(JsonWriter& out, const storage::TournamentRecord& tournament) {
 }
 
 void write_terms(JsonWriter& out, const Field& field) {
-  if (!field.settings) {
+  if (!field.book) {
     return;
   }
-  const settings::TournamentSettings& settings = *field.settings;
+  const settings::TournamentSettings& settings = field.book->settings();
   out.key("format").string(settings.format).key("rules").string(rules::name(settings.rules));
   out.key("games_per_match").integer(settings.games_per_match);
   out.key("table").string(settings.table).key("physics").string(settings.physics);
@@ -201,19 +159,23 @@ void write_terms(JsonWriter& out, const Field& field) {
 
 // How many games there will be, where the matches to come are known.
 std::optional<std::uint64_t> games_planned(const Field& field) {
-  if (!field.settings || field.settings->format != "round_robin") {
+  if (!field.book || field.book->settings().format != "round_robin") {
     return std::nullopt;
   }
-  const std::uint64_t entries = field.settings->entries.size();
-  return entries * (entries - std::min<std::uint64_t>(entries, 1)) / 2 *
-         field.settings->games_per_match;
+  return field.book->schedule().pairings.size() * field.book->settings().games_per_match;
 }
 
-void write_progress(JsonWriter& out, const Field& field, std::size_t over) {
-  std::size_t running = 0;
+bool is_scored(const storage::GameRecord& game) {
+  return game.over && game.result && game.result->reason != rules::EndReason::void_game;
+}
+
+void write_progress(JsonWriter& out, const Field& field) {
+  std::ptrdiff_t over = 0;
+  std::ptrdiff_t running = 0;
   for (const auto& games : field.games) {
-    running += static_cast<std::size_t>(
-        std::count_if(games.begin(), games.end(), [](const auto& game) { return !game.over; }));
+    over += std::count_if(games.begin(), games.end(), is_scored);
+    running +=
+        std::count_if(games.begin(), games.end(), [](const auto& game) { return !game.over; });
   }
   out.key("games_over").integer(over).key("games_running").integer(running);
   out.key("games_planned");
@@ -230,7 +192,14 @@ void write_matches(JsonWriter& out, const Field& field, const Names& names) {
   for (std::size_t i = field.matches.size(); i-- > 0 && listed < most_games_listed;) {
     const storage::MatchRecord& match = field.matches[i];
     out.begin_object().key("match").integer(protocol::number(match.id));
-    out.key("over").boolean(match.over);
+    out.key("over").boolean(match.over).key("round");
+    const auto* const pairing =
+        field.book ? field.book->pairing(match.pairing.value_or(0)) : nullptr;
+    if (pairing != nullptr) {
+      out.integer(pairing->round + 1);
+    } else {
+      out.null();
+    }
     write_agents(out, match.agents, names);
     out.key("games").begin_array();
     for (const storage::GameRecord& game : field.games[i]) {
@@ -258,6 +227,25 @@ void write_entries(JsonWriter& out, const Field& field, const Names& names) {
   out.end_array();
 }
 
+// The tables that `poolhall tournament` shows too.
+void write_tables(JsonWriter& out, const Field& field) {
+  tournament::Standings table;
+  tournament::Names entries;
+  std::vector<tournament::PlayedGame> games;
+  if (field.book) {
+    entries = field.book->names();
+    games = field.book->games();
+    table = tournament::standings(entries.size(), games, field.book->table_rules());
+  }
+  write_standings(out, table, entries);
+  write_crosstable(out, tournament::crosstable(entries.size(), games), table);
+  out.key("remarks").begin_array();
+  if (const auto line = field.book ? ledger::sprt_line(*field.book) : std::nullopt) {
+    out.string(*line);
+  }
+  out.end_array();
+}
+
 }  // namespace
 
 Page tournaments_page(Reader& reader, const Horizon& horizon) {
@@ -276,7 +264,7 @@ Page tournaments_page(Reader& reader, const Horizon& horizon) {
     out.begin_object();
     write_head(out, tournament);
     write_terms(out, *field);
-    write_progress(out, *field, played_games(*field).size());
+    write_progress(out, *field);
     write_entries(out, *field, *names);
     out.end_object();
   }
@@ -299,16 +287,13 @@ Page tournament_page(Reader& reader, std::string_view id, const Horizon& horizon
   if (!field) {
     return unreadable(field.error());
   }
-  const auto games = played_games(*field);
-  const auto table = tournament::standings(field->entries.size(), games, tie_breaks_of(*field));
   JsonWriter out;
   out.begin_object();
   write_head(out, *found);
   write_terms(out, *field);
-  write_progress(out, *field, games.size());
+  write_progress(out, *field);
   write_entries(out, *field, *names);
-  write_standings(out, *field, *names, table);
-  write_crosstable(out, tournament::crosstable(field->entries.size(), games), table);
+  write_tables(out, *field);
   write_matches(out, *field, *names);
   out.end_object();
   return page_of(out);

@@ -1,8 +1,5 @@
 #include "tests/bench/server/server_bench.hpp"
 
-#include <linux/magic.h>
-#include <sys/vfs.h>
-
 #include <array>
 #include <cstdio>
 #include <fstream>
@@ -17,6 +14,7 @@
 #include "protocol/json_node.hpp"
 #include "server/storage/sqlite_database.hpp"
 #include "tests/bench/server/metrics.hpp"
+#include "tests/bench/server/place.hpp"
 #include "tests/support/process/server_process.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -46,20 +44,6 @@ std::string formatted(const char* format, Values... values) {
   std::array<char, 300> line;
   std::snprintf(line.data(), line.size(), format, values...);
   return line.data();
-}
-
-bool is_in_memory(const std::filesystem::path& directory) {
-  struct statfs what {};
-  return ::statfs(directory.c_str(), &what) == 0 &&
-         (what.f_type == TMPFS_MAGIC || what.f_type == RAMFS_MAGIC);
-}
-
-std::filesystem::path place_on_disk(const std::filesystem::path& wanted) {
-  if (!wanted.empty()) {
-    return wanted;
-  }
-  const std::filesystem::path temporary = std::filesystem::temp_directory_path();
-  return is_in_memory(temporary) ? std::filesystem::current_path() : temporary;
 }
 
 // What the generator is told to do.

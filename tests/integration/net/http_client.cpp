@@ -1,5 +1,7 @@
 #include "http_client.hpp"
 
+#include <memory>
+
 #include "wire_client.hpp"
 
 namespace poolhall::net_tests {
@@ -16,9 +18,10 @@ HttpAnswer http_call(std::uint16_t port, const HttpCall& call) {
   if (!call.body.empty()) {
     request += "Content-Length: " + std::to_string(call.body.size()) + "\r\n";
   }
-  WireClient client{port};
-  client.send_bytes(request + "\r\n" + call.body);
-  const std::string all = client.read_all();
+  const auto client = call.ca_file.empty() ? std::make_unique<WireClient>(port)
+                                           : std::make_unique<WireClient>(port, call.ca_file);
+  client->send_bytes(request + "\r\n" + call.body);
+  const std::string all = client->read_all();
   HttpAnswer answer;
   const auto end = all.find("\r\n\r\n");
   if (end == std::string::npos || all.size() < 12) {

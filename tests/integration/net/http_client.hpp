@@ -17,6 +17,7 @@ struct HttpCall {
   std::string token{};                 // as "Authorization: Bearer TOKEN", unless it is empty
   std::vector<std::string> headers{};  // more of them, "Name: value"
   std::string host = "127.0.0.1";
+  std::string ca_file{};  // of a server that is asked by HTTPS; empty: plain HTTP
 };
 
 struct HttpAnswer {

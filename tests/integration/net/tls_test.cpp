@@ -6,6 +6,7 @@
 
 #include "certificate.hpp"
 #include "clients/cpp/client.hpp"
+#include "http_client.hpp"
 #include "scripted_play.hpp"
 #include "server/net/tls.hpp"
 #include "test_server.hpp"
@@ -175,6 +176,73 @@ TEST(TlsSettings, AreRefusedWithTheFileThatIsWrong) {
   EXPECT_NE(reason({"", good.file, other.key}).find("other.key"), std::string::npos);
 }
 
+// The page by HTTPS, beside the plain one.
+class Https : public Tls {
+ protected:
+  Https() {
+    options_.settings.http = "127.0.0.1:0";
+    options_.settings.tls.http = "127.0.0.1:0";
+  }
+  [[nodiscard]] std::uint16_t https() { return server().server().https_endpoint()->port; }
+  [[nodiscard]] HttpAnswer ask(HttpCall call) {
+    call.ca_file = certificate_.file;
+    return http_call(https(), call);
+  }
+};
+
+TEST_F(Https, AnswersWhatThePlainPortAnswers) {
+  const HttpAnswer plain =
+      http_call(server().server().http_endpoint()->port, {"GET", "/api/presets"});
+  EXPECT_EQ(ask({"GET", "/api/presets"}).body, plain.body);
+  EXPECT_EQ(ask({"GET", "/"}).status, 200);
+  EXPECT_EQ(ask({"GET", "/metrics"}).status, 200);
+}
+
+TEST_F(Https, HasTheNamesThatItsCertificateIsFor) {
+  EXPECT_EQ(ask({.path = "/healthz", .host = "localhost:8443"}).status, 200);
+  EXPECT_EQ(ask({.path = "/healthz", .host = "127.0.0.1"}).status, 200);
+  const auto answer = ask({.path = "/healthz", .host = "evil.example"});
+  EXPECT_EQ(answer.status, 421) << answer.body;
+  EXPECT_EQ(ask({.path = "/healthz", .headers = {"Origin: https://evil.example"}}).status, 403);
+  EXPECT_EQ(ask({.path = "/healthz", .headers = {"Origin: https://127.0.0.1"}}).status, 200);
+}
+
+TEST_F(Https, CarriesStreams) {
+  WireClient spectator{https(), certificate_.file};
+  spectator.send_bytes(
+      "GET /ws/lobby HTTP/1.1\r\nHost: 127.0.0.1\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
+      "Sec-WebSocket-Version: 13\r\nSec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n\r\n");
+  const auto first = spectator.read_line();
+  ASSERT_TRUE(first);
+  EXPECT_NE(first->find("101"), std::string::npos) << *first;
+  while (const auto line = spectator.read_line()) {
+    if (line->size() <= 1) {
+      break;  // the end of the head
+    }
+  }
+  // A lobby's snapshot is a frame of text; it holds no line's end, so bytes are looked at.
+  while (spectator.rest().find("\"type\":\"lobby\"") == std::string::npos) {
+    ASSERT_TRUE(spectator.receive());
+  }
+}
+
+TEST_F(Https, EndsAConnectionThatSpeaksPlainText) {
+  WireClient plain{https()};
+  plain.send_bytes("GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n\r\n");
+  EXPECT_EQ(plain.read_all().find("HTTP/1.1 200"), std::string::npos);
+  EXPECT_EQ(ask({"GET", "/healthz"}).status, 200);
+}
+
+TEST(HttpsSettings, WantACertificate) {
+  test_support::TemporaryDirectory directory;
+  auto options = test_options(directory / "test.db");
+  options.settings.tls.http = "127.0.0.1:0";
+  net::Server server(options);
+  const auto started = server.start();
+  ASSERT_FALSE(started);
+  EXPECT_NE(started.error().find("tls.certificate"), std::string::npos) << started.error();
+}
+
 TEST(ExposedPorts, AreThoseThatOthersReachWithoutEncryption) {
   settings::ServerSettings settings;
   EXPECT_FALSE(net::exposed(settings));
@@ -182,6 +250,7 @@ TEST(ExposedPorts, AreThoseThatOthersReachWithoutEncryption) {
   EXPECT_NE(net::exposed(settings)->find("0.0.0.0:8080"), std::string::npos);
   settings.http = "127.0.0.1:8080";
   settings.tls.listen = "0.0.0.0:7778";
+  settings.tls.http = "0.0.0.0:8443";
   EXPECT_FALSE(net::exposed(settings));
   settings.listen = "[::]:7777";
   EXPECT_TRUE(net::exposed(settings));

@@ -38,6 +38,8 @@ class WireClient {
   [[nodiscard]] std::optional<std::string> read_line();
   // Everything until the end of the stream.
   [[nodiscard]] std::string read_all();
+  // More bytes into rest(); false at the end of the stream.
+  [[nodiscard]] bool receive();
   [[nodiscard]] int descriptor() const { return socket_; }
   void close();
   // All bytes that have come so far, and those of them that are no line yet.
@@ -94,8 +96,6 @@ class WireClient {
   protocol::LoginReply login(const std::string& token);
 
  private:
-  // More bytes into input_; false at the end of the stream.
-  bool receive();
   [[nodiscard]] protocol::ServerMessage decode(const std::string& line);
 
   struct Tls;
