@@ -312,7 +312,7 @@ asio::awaitable<void> HttpServer::spectate(Stream stream, Request request, Visit
   boost::system::error_code ignored;
   beast::get_lowest_layer(stream).socket().set_option(tcp::socket::send_buffer_size(socket_buffer),
                                                       ignored);
-  auto socket = std::make_shared<websocket::stream<Stream>>(std::move(stream));
+  auto socket = std::make_shared<websocket::stream<Stream, false>>(std::move(stream));
   socket->set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
   socket->read_message_max(spectator_message);
   socket->auto_fragment(false);

@@ -26,7 +26,7 @@ using test_support::ServerProcess;
 constexpr double most_ratio = 1.10;
 // Some answers are decisions or refused; the time-tables are set for so many more than shots.
 constexpr double answers_a_shot = 1.12;
-constexpr double long_enough = 1e6;  // seconds, of the watched game's agents
+constexpr double long_enough = 86'400;  // seconds, of the watched game's agents
 constexpr int warm_up = 4;           // seconds: the spectators take their seats
 // A window in which the watched game ends is no window with spectators: it is run again.
 constexpr double least_of_turns = 0.75;
