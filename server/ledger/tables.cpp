@@ -4,6 +4,7 @@
 #include <fmt/ranges.h>
 
 #include "protocol/json_writer.hpp"
+#include "server/ratings/status_text.hpp"
 #include "server/tournament/crosstable.hpp"
 #include "server/tournament/trf.hpp"
 
@@ -28,22 +29,6 @@ std::string number_text(double value) {
 
 std::string optional_text(const std::optional<double>& value) {
   return value ? number_text(*value) : "";
-}
-
-std::string_view word(ratings::RatingStatus status) {
-  switch (status) {
-    case ratings::RatingStatus::rated:
-      return "rated";
-    case ratings::RatingStatus::won_everything:
-      return "won_everything";
-    case ratings::RatingStatus::lost_everything:
-      return "lost_everything";
-    case ratings::RatingStatus::unconnected:
-      return "unconnected";
-    case ratings::RatingStatus::no_games:
-      break;
-  }
-  return "no_games";
 }
 
 std::string standings_csv(const Standings& table, const Names& names) {

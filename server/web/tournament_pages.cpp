@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "server/ledger/stored_tournament.hpp"
+#include "server/ratings/status_text.hpp"
 #include "server/tournament/crosstable.hpp"
 #include "server/tournament/standings.hpp"
 #include "server/web/page_parts.hpp"
@@ -50,22 +51,6 @@ storage::Expected<Field> read_field(Reader& reader, const storage::TournamentRec
     field.games.push_back(std::move(*games));
   }
   return field;
-}
-
-std::string_view word(ratings::RatingStatus status) {
-  switch (status) {
-    case ratings::RatingStatus::rated:
-      return "rated";
-    case ratings::RatingStatus::won_everything:
-      return "won_everything";
-    case ratings::RatingStatus::lost_everything:
-      return "lost_everything";
-    case ratings::RatingStatus::unconnected:
-      return "unconnected";
-    case ratings::RatingStatus::no_games:
-      break;
-  }
-  return "no_games";
 }
 
 void write_estimate(JsonWriter& out, std::string_view key,
