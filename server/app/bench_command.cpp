@@ -5,9 +5,11 @@
 #include <functional>
 #include <iostream>
 #include <memory>
+#include <stdexcept>
 #include <string>
 
 #include "server/app/commands.hpp"
+#include "server/app/exit_codes.hpp"
 #include "tests/bench/benchmarks.hpp"
 #include "tests/bench/server/server_bench.hpp"
 #include "tests/bench/server/spectators_bench.hpp"
@@ -24,6 +26,9 @@ using Benchmark = bool (*)(const bench::BenchOptions&, std::ostream&);
 int guarded(const std::function<bool()>& run) {
   try {
     return run() ? 0 : 1;
+  } catch (const std::invalid_argument& error) {
+    std::cerr << "poolhall bench: " << error.what() << '\n';
+    return wrong_input;
   } catch (const std::exception& error) {
     std::cerr << "poolhall bench: " << error.what() << '\n';
     return 1;

@@ -103,7 +103,7 @@ double quartic_nanoseconds(const BenchOptions& options) {
 void time_scene_file(const std::filesystem::path& file, std::ostream& out) {
   std::ifstream in(file);
   if (!in) {
-    throw std::runtime_error("cannot read " + file.string());
+    throw std::invalid_argument("cannot read " + file.string());
   }
   std::vector<double> times;
   std::vector<double> events;
@@ -115,11 +115,11 @@ void time_scene_file(const std::filesystem::path& file, std::ostream& out) {
     const auto where = file.string() + ":" + std::to_string(number) + ": ";
     const auto given = protocol::decode_scene(line);
     if (!given) {
-      throw std::runtime_error(where + given.error().field + ": " + given.error().reason);
+      throw std::invalid_argument(where + given.error().field + ": " + given.error().reason);
     }
     const physics::Scene<double> scene = protocol::scene_of(*given);
     if (const auto possible = physics::check_scene(scene); !possible) {
-      throw std::runtime_error(where + possible.error().field + ": " + possible.error().reason);
+      throw std::invalid_argument(where + possible.error().field + ": " + possible.error().reason);
     }
     physics::AdaptiveLoop<double> loop(scene.table, scene.materials);
     times.push_back(least_microseconds(5, [&] {
