@@ -1,7 +1,10 @@
 // What each omission saves, with the same result bit for bit.
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <ostream>
 
+#include "physics/ball_collision.hpp"
 #include "physics/event_loop.hpp"
 #include "physics/watch.hpp"
 #include "tests/bench/benchmarks.hpp"
@@ -20,13 +23,11 @@ using test_support::RandomShot;
 // What an omission is measured on.
 struct Play {
   std::size_t balls = 16;  // 0: breaks, 16 balls
-  double friction = 0.01;  // between balls
   physics::ContactModel contact = physics::ContactModel::cluster;
 };
 
 std::vector<physics::Scene<double>> scenes_of(const Play& play, const BenchOptions& options) {
-  physics::Materials materials = *physics::preset_materials("olympiad");
-  materials.ball_friction = physics::ConstantFriction{play.friction};
+  const physics::Materials materials = *physics::preset_materials("olympiad");
   const physics::Table table = *physics::preset_table("bar7");
   std::vector<physics::Scene<double>> scenes;
   for (std::size_t i = 0; i < scaled_count(play.balls == 0 ? 300 : 1000, options); ++i) {
@@ -69,8 +70,7 @@ Timed timed(Loop& loop, const physics::Scene<double>& scene, physics::ContactMod
 
 std::string words(const Play& play) {
   return (play.balls == 0 ? "break" : std::to_string(play.balls) + " balls") +
-         (play.contact == physics::ContactModel::sequential ? ", sequential" : "") +
-         (play.friction == 0 ? ", mu_b 0" : "");
+         (play.contact == physics::ContactModel::sequential ? ", sequential" : "");
 }
 
 // Means of the least of some runs: a median would hide what only some shots save.
@@ -105,6 +105,57 @@ bool measure(const std::string& name, const Play& play, const BenchOptions& opti
   return same && slow > quick;
 }
 
+using BallPair = std::array<physics::Ball<double>, 2>;
+
+// Moving balls that touch, at any angle.
+std::vector<BallPair> touching_pairs(double radius) {
+  std::vector<BallPair> pairs(1000);
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const double n = static_cast<double>(i);
+    auto& [first, second] = pairs[i];
+    second.position = {2 * radius * std::cos(n), 2 * radius * std::sin(n)};
+    first.velocity = {2 * std::cos(n + std::sin(3 * n)), 2 * std::sin(n + std::sin(3 * n))};
+    first.angular_velocity = {30 * std::sin(n), 40 * std::cos(2 * n), 20 * std::sin(5 * n)};
+    second.angular_velocity = {10 * std::cos(n), 20 * std::sin(7 * n), 30 * std::cos(3 * n)};
+  }
+  return pairs;
+}
+
+template <class Policy>
+double microseconds_an_impact(std::vector<BallPair>& pairs, const physics::Materials& materials) {
+  const auto c = physics::coefficients<double>(materials);
+  const std::vector<BallPair> before = pairs;
+  const double all = least_microseconds(300, [&] {
+    for (std::size_t i = 0; i < pairs.size(); ++i) {
+      pairs[i] = before[i];
+      static_cast<void>(
+          physics::strike_together<Policy>(pairs[i][0], pairs[i][1], c, materials.ball_friction));
+    }
+  });
+  return all / static_cast<double>(pairs.size());
+}
+
+// In a whole shot this is less than two runs of one program differ by: impacts alone show it.
+bool measure_friction(ReportTable& table) {
+  physics::Materials materials = *physics::preset_materials("olympiad");
+  materials.ball_friction = physics::ConstantFriction{0};
+  std::vector<BallPair> lean = touching_pairs(materials.ball_radius);
+  std::vector<BallPair> full = lean;
+  const double quick = microseconds_an_impact<physics::Lean>(lean, materials);
+  const double slow =
+      microseconds_an_impact<physics::LeanWithout<Omission::ball_friction>>(full, materials);
+  bool same = true;
+  for (std::size_t i = 0; i < lean.size(); ++i) {
+    for (const std::size_t k : {0U, 1U}) {
+      same = same && lean[i][k].velocity == full[i][k].velocity &&
+             lean[i][k].angular_velocity == full[i][k].angular_velocity;
+    }
+  }
+  table.add({"ball friction of 0", "an impact, mu_b 0", cell(slow, 4), cell(quick, 4),
+             cell(slow / quick, 4), same ? "yes" : "no"});
+  return same && slow > quick;
+}
+
 // Questions that need less than a whole shot.
 template <class Watch>
 bool measure_question(const std::string& name, const Watch& question, const BenchOptions& options,
@@ -126,7 +177,7 @@ bool measure_question(const std::string& name, const Watch& question, const Benc
 }  // namespace
 
 bool bench_lean(const BenchOptions& options, std::ostream& out) {
-  ReportTable table("What a scene does not need (table bar7, mean us a shot)",
+  ReportTable table("What a scene does not need (table bar7, mean us a shot or an impact)",
                     {"omission", "measured on", "computed", "omitted", "ratio", "same bits"});
   constexpr auto one_by_one = physics::ContactModel::sequential;
   bool held = true;
@@ -135,8 +186,7 @@ bool bench_lean(const BenchOptions& options, std::ostream& out) {
   held &= measure<Omission::clear_pairs>("clear pairs", {.balls = 0, .contact = one_by_one},
                                          options, table);
   held &= measure<Omission::far_rails>("far rails and jaws", {.balls = 2}, options, table);
-  held &= measure<Omission::ball_friction>(
-      "ball friction of 0", {.balls = 0, .friction = 0, .contact = one_by_one}, options, table);
+  held &= measure_friction(table);
   held &= measure<Omission::far_neighbours>("clusters without a third ball", {}, options, table);
   held &= measure_question("no log", physics::Unwatched{}, options, table);
   held &= measure_question("first contact only", physics::FirstContact{physics::cue_ball, {}},
