@@ -30,6 +30,10 @@ class Simulate : public testing::Test {
     return test_support::run_command(std::string(POOLHALL_PROGRAM) + " simulate " + arguments,
                                      input_);
   }
+  Ran bench_speed(const std::string& scenes) const {
+    return test_support::run_command(
+        std::string(POOLHALL_PROGRAM) + " bench speed --scenes " + scenes, input_);
+  }
 
   std::string input_;
 
@@ -125,6 +129,17 @@ TEST_F(Simulate, WritesOneResultALine) {
   EXPECT_NE(parsed(first).member("events"), nullptr);
   EXPECT_NE(second.find(R"({"error":{"line":2,"field":"","reason":"not JSON)"), std::string::npos);
   EXPECT_NE(third.find(R"("ending":"t_max")"), std::string::npos);
+}
+
+TEST_F(Simulate, BenchTimesTheSameFileAndRefusesAsItDoes) {
+  const Ran timed = bench_speed(file("good.jsonl", scene() + "\n" + scene() + "\n").string());
+  EXPECT_EQ(timed.exit_code, 0) << timed.err;
+  EXPECT_NE(timed.out.find("us a shot, median"), std::string::npos);
+  const Ran wrong =
+      bench_speed(file("bad.jsonl", scene() + "\n" + scene(R"(,"t_max":-1)")).string());
+  EXPECT_EQ(wrong.exit_code, 2);
+  EXPECT_NE(wrong.err.find("bad.jsonl:2: /t_max: "), std::string::npos) << wrong.err;
+  EXPECT_EQ(bench_speed("nowhere.jsonl").exit_code, 2);
 }
 
 TEST_F(Simulate, DrawsAPicture) {
