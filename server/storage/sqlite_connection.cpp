@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <system_error>
+#include <utility>
 
 #include "server/storage/sqlite_schema.hpp"
 
@@ -178,6 +179,15 @@ Expected<void> SqliteConnection::prepare(Access access) {
   database_.exec("PRAGMA foreign_keys = ON");
   migrate(*version);
   return {};
+}
+
+void SqliteConnection::on_log_growth(std::function<void(int)> told) {
+  log_growth_ = std::move(told);
+  const auto call = [](void* self, sqlite3*, const char*, int pages) {
+    static_cast<SqliteConnection*>(self)->log_growth_(pages);
+    return SQLITE_OK;
+  };
+  sqlite3_wal_hook(database_.getHandle(), call, this);
 }
 
 SqliteConnection::Use SqliteConnection::prepared(const std::string& sql) {

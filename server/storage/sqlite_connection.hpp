@@ -10,6 +10,7 @@
 #include <SQLiteCpp/Statement.h>
 
 #include <filesystem>
+#include <functional>
 #include <map>
 #include <memory>
 #include <string>
@@ -52,6 +53,9 @@ class SqliteConnection {
   [[nodiscard]] Use prepared(const std::string& sql);
   [[nodiscard]] SQLite::Database& raw() { return database_; }
   [[nodiscard]] const std::string& file() const { return file_; }
+  // Calls this after each commit with the number of pages in the write-ahead log, instead of moving
+  // them into the database file now and then.
+  void on_log_growth(std::function<void(int)> told);
 
   template <class F>
   [[nodiscard]] auto guarded(F&& work) -> Expected<std::invoke_result_t<F>> {
@@ -77,6 +81,7 @@ class SqliteConnection {
   void migrate(int from);
 
   std::string file_;
+  std::function<void(int)> log_growth_;
   SQLite::Database database_;
   std::map<std::string, SQLite::Statement, std::less<>> statements_;
 };

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/storage/checkpointer.hpp"
 #include "server/storage/file_lock.hpp"
 #include "server/storage/sqlite_connection.hpp"
 #include "server/storage/sqlite_rows.hpp"
@@ -27,8 +28,14 @@ std::vector<Record> reversed(std::vector<Record>&& rows) {
 // Serves as a Reader too: on a connection that may only read.
 class SqliteDatabase final : public Database {
  public:
-  SqliteDatabase(std::optional<FileLock> lock, std::unique_ptr<Connection> connection)
-      : lock_(std::move(lock)), connection_(std::move(connection)) {}
+  explicit SqliteDatabase(std::unique_ptr<Connection> reading) : connection_(std::move(reading)) {}
+  SqliteDatabase(FileLock lock, std::unique_ptr<Connection> connection,
+                 std::unique_ptr<Checkpointer> checkpointer)
+      : lock_(std::move(lock)),
+        connection_(std::move(connection)),
+        checkpointer_(std::move(checkpointer)) {
+    connection_->on_log_growth([this](int pages) { checkpointer_->log_has(pages); });
+  }
 
   Expected<Counters> counters() override;
   Expected<std::vector<AgentRecord>> agents() override;
@@ -143,6 +150,7 @@ class SqliteDatabase final : public Database {
 
   std::optional<FileLock> lock_;
   std::unique_ptr<Connection> connection_;
+  std::unique_ptr<Checkpointer> checkpointer_;  // null: it only reads
 };
 
 std::int64_t SqliteDatabase::next_id(const std::string& table, const std::string& column) {
@@ -342,17 +350,25 @@ Expected<std::vector<std::string>> SqliteDatabase::check_structure() {
 }
 
 Expected<void> SqliteDatabase::begin() {
-  return connection_->guarded([&] { connection_->prepared("BEGIN IMMEDIATE")->exec(); });
+  checkpointer_->begin_writing();
+  auto begun = connection_->guarded([&] { connection_->prepared("BEGIN IMMEDIATE")->exec(); });
+  if (!begun)
+    checkpointer_->end_writing();
+  return begun;
 }
 
 Expected<void> SqliteDatabase::commit() {
-  return connection_->guarded([&] { connection_->prepared("COMMIT")->exec(); });
+  auto committed = connection_->guarded([&] { connection_->prepared("COMMIT")->exec(); });
+  if (committed)
+    checkpointer_->end_writing();
+  return committed;
 }
 
 void SqliteDatabase::rollback() {
   // Some errors have ended the transaction already.
   if (sqlite3_get_autocommit(connection_->raw().getHandle()) == 0)
     connection_->raw().tryExec("ROLLBACK");
+  checkpointer_->end_writing();
 }
 
 Expected<void> SqliteDatabase::add_agent(const AgentRecord& agent) {
@@ -462,7 +478,8 @@ Expected<void> SqliteDatabase::append_turn(const TurnRecord& turn) {
 
 }  // namespace
 
-Expected<std::unique_ptr<Database>> open_sqlite(const std::filesystem::path& file) {
+Expected<std::unique_ptr<Database>> open_sqlite(const std::filesystem::path& file,
+                                                CheckpointOptions checkpoints) {
   std::error_code ignored;
   const std::filesystem::path resolved = std::filesystem::weakly_canonical(file, ignored);
   const std::filesystem::path& path = resolved.empty() ? file : resolved;
@@ -474,14 +491,18 @@ Expected<std::unique_ptr<Database>> open_sqlite(const std::filesystem::path& fil
   auto connection = Connection::open(path, Connection::Access::owner);
   if (!connection)
     return tl::unexpected(connection.error());
-  return std::make_unique<SqliteDatabase>(std::move(*lock), std::move(*connection));
+  auto checkpointer = Checkpointer::start(path, checkpoints);
+  if (!checkpointer)
+    return tl::unexpected(checkpointer.error());
+  return std::make_unique<SqliteDatabase>(std::move(*lock), std::move(*connection),
+                                          std::move(*checkpointer));
 }
 
 Expected<std::unique_ptr<Reader>> open_sqlite_reader(const std::filesystem::path& file) {
   auto connection = Connection::open(file, Connection::Access::read_only);
   if (!connection)
     return tl::unexpected(connection.error());
-  return std::make_unique<SqliteDatabase>(std::nullopt, std::move(*connection));
+  return std::make_unique<SqliteDatabase>(std::move(*connection));
 }
 
 }  // namespace poolhall::storage

@@ -14,8 +14,15 @@
 
 namespace poolhall::storage {
 
+struct CheckpointOptions {
+  // The write-ahead log's length from which on it is moved into the database file, beside the
+  // commits, in pages of 4 KiB.
+  int pages = 8'192;
+};
+
 // Creates the file if there is none, and brings an older schema up to date.
-[[nodiscard]] Expected<std::unique_ptr<Database>> open_sqlite(const std::filesystem::path& file);
+[[nodiscard]] Expected<std::unique_ptr<Database>> open_sqlite(const std::filesystem::path& file,
+                                                              CheckpointOptions checkpoints = {});
 
 // Never writes and takes no ownership; the file must exist and have this program's schema.
 [[nodiscard]] Expected<std::unique_ptr<Reader>> open_sqlite_reader(

@@ -314,7 +314,8 @@ TEST_P(DatabaseConformance, finds_nothing_wrong_with_its_own_structure) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sqlite, DatabaseConformance,
-                         testing::Values(Implementation{"sqlite", open_sqlite}),
+                         testing::Values(Implementation{
+                             "sqlite", [](const auto& file) { return open_sqlite(file); }}),
                          [](const auto& test) { return test.param.name; });
 
 }  // namespace

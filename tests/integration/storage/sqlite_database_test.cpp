@@ -5,6 +5,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <csignal>
 #include <fstream>
 
@@ -168,6 +169,85 @@ TEST(SqliteDatabase, has_what_was_committed_and_no_more_after_a_kill) {
   EXPECT_EQ((*database)->turn(GameId{1}, 1).value(), sample_turn(1, 1));
   EXPECT_EQ((*database)->turn(GameId{1}, 2).value(), std::nullopt);
   EXPECT_EQ((*database)->unfinished_games().value().at(0).last_turn, sample_turn(1, 1));
+}
+
+// How often SQLite has begun the write-ahead log anew, for all of it was in the database file: the
+// third number of the log's header.
+std::uint32_t times_begun_anew(const std::filesystem::path& file) {
+  std::array<unsigned char, 16> header{};
+  std::ifstream(file.string() + "-wal", std::ios::binary)
+      .read(reinterpret_cast<char*>(header.data()), header.size());
+  return std::uint32_t{header[12]} << 24 | std::uint32_t{header[13]} << 16 |
+         std::uint32_t{header[14]} << 8 | header[15];
+}
+
+// Commits turns without a pause until the log has been begun anew twice; their number.
+std::uint32_t write_beside_checkpoints(const std::filesystem::path& file, Database& database) {
+  TurnRecord turn = sample_turn(1, 1);
+  turn.shot->events = std::string(20'000, ' ');
+  constexpr std::uint32_t most = 200'000;
+  for (std::uint32_t number = 1; number <= most; ++number) {
+    turn.number = number;
+    if (!database.begin() || !database.append_turn(turn) || !database.commit())
+      return 0;
+    if (number % 16 == 0 && times_begun_anew(file) >= 2)
+      return number;
+  }
+  return 0;
+}
+
+TEST(SqliteDatabase, begins_its_log_anew_though_there_is_always_something_to_write) {
+  TemporaryDirectory directory;
+  auto owner = open_sqlite(directory / "test.db", {.pages = 64}).value();
+  add_samples(*owner);
+  const std::uint32_t written = write_beside_checkpoints(directory / "test.db", *owner);
+  ASSERT_GT(written, 0U);
+  EXPECT_LT(std::filesystem::file_size(directory / "test.db-wal"), written * 20'000);
+}
+
+TEST(SqliteDatabase, leaves_the_log_alone_while_somebody_reads_an_older_state) {
+  TemporaryDirectory directory;
+  auto owner = open_sqlite(directory / "test.db", {.pages = 1}).value();
+  add_samples(*owner);
+  auto reader = open_sqlite_reader(directory / "test.db").value();
+  ASSERT_TRUE(reader->consistently([&] {
+    EXPECT_EQ(reader->turn(GameId{1}, 1).value(), std::nullopt);
+    for (std::uint32_t number = 1; number <= 50; ++number) {
+      ASSERT_TRUE(owner->begin());
+      ASSERT_TRUE(owner->append_turn(sample_turn(1, number)));
+      ASSERT_TRUE(owner->commit());
+    }
+    EXPECT_EQ(reader->turn(GameId{1}, 1).value(), std::nullopt);
+  }));
+  EXPECT_EQ(reader->turn(GameId{1}, 50).value(), sample_turn(1, 50));
+}
+
+TEST(SqliteDatabase, has_every_turn_when_it_is_killed_among_checkpoints) {
+  TemporaryDirectory directory;
+  const std::filesystem::path file = directory / "test.db";
+  const pid_t child = fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    auto database = open_sqlite(file, {.pages = 64}).value();
+    add_samples(*database);
+    const std::uint32_t written = write_beside_checkpoints(file, *database);
+    std::ofstream(directory / "written") << written << std::flush;
+    std::raise(SIGKILL);
+  }
+  int status = 0;
+  ASSERT_EQ(waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL);
+  std::uint32_t written = 0;
+  std::ifstream(directory / "written") >> written;
+  ASSERT_GT(written, 0U);
+  auto database = open_sqlite(file).value();
+  std::uint32_t found = 0;
+  ASSERT_TRUE(database->each_turn(GameId{1}, [&](const TurnRecord& turn) {
+    found += turn.number == found + 1 ? 1 : 0;
+    return true;
+  }));
+  EXPECT_EQ(found, written);
+  EXPECT_THAT(database->check_structure().value(), testing::IsEmpty());
 }
 
 }  // namespace

@@ -1,0 +1,95 @@
+#include "server/storage/checkpointer.hpp"
+
+#include <sqlite3.h>
+
+#include <chrono>
+#include <utility>
+
+#include "server/storage/sqlite_connection.hpp"
+
+namespace poolhall::storage {
+namespace {
+
+// After a run that could not move everything (a reader of an older state, a full disk): the next
+// one would not find it otherwise at once.
+constexpr std::chrono::milliseconds pause_after_failure{500};
+
+}  // namespace
+
+Expected<std::unique_ptr<Checkpointer>> Checkpointer::start(const std::filesystem::path& file,
+                                                            CheckpointOptions options) {
+  auto connection = SqliteConnection::open(file, SqliteConnection::Access::owner);
+  if (!connection)
+    return tl::unexpected(connection.error());
+  return std::unique_ptr<Checkpointer>(new Checkpointer(std::move(*connection), options));
+}
+
+Checkpointer::Checkpointer(std::unique_ptr<SqliteConnection> connection, CheckpointOptions options)
+    : connection_(std::move(connection)), options_(options), thread_([this] { run(); }) {}
+
+Checkpointer::~Checkpointer() {
+  {
+    const std::lock_guard lock(mutex_);
+    stopping_ = true;
+    changed_.notify_all();
+  }
+  thread_.join();
+}
+
+void Checkpointer::log_has(int pages) {
+  if (pages < options_.pages)
+    return;
+  const std::lock_guard lock(mutex_);
+  if (!std::exchange(due_, true))
+    changed_.notify_all();
+}
+
+void Checkpointer::begin_writing() {
+  std::unique_lock lock(mutex_);
+  changed_.wait(lock, [this] { return !writers_wait_; });
+  writing_ = true;
+}
+
+void Checkpointer::end_writing() {
+  const std::lock_guard lock(mutex_);
+  if (std::exchange(writing_, false))
+    changed_.notify_all();
+}
+
+void Checkpointer::run() {
+  std::unique_lock lock(mutex_);
+  for (;;) {
+    changed_.wait(lock, [this] { return due_ || stopping_; });
+    if (stopping_)
+      return;
+    lock.unlock();
+    const bool moved = move_all();
+    lock.lock();
+    if (!moved)
+      changed_.wait_for(lock, pause_after_failure, [this] { return stopping_; });
+    due_ = false;
+  }
+}
+
+bool Checkpointer::move_all() {
+  static_cast<void>(move_once());
+  std::unique_lock lock(mutex_);
+  writers_wait_ = true;  // said first: a busy writer leaves no gap to come between
+  changed_.wait(lock, [this] { return !writing_ || stopping_; });
+  lock.unlock();
+  const bool moved = move_once();
+  lock.lock();
+  writers_wait_ = false;
+  changed_.notify_all();
+  return moved;
+}
+
+bool Checkpointer::move_once() {
+  int in_log = 0;
+  int moved = 0;
+  const int result = sqlite3_wal_checkpoint_v2(connection_->raw().getHandle(), nullptr,
+                                               SQLITE_CHECKPOINT_PASSIVE, &in_log, &moved);
+  return result == SQLITE_OK && moved == in_log;
+}
+
+}  // namespace poolhall::storage
