@@ -2,7 +2,6 @@
 #include <CLI/CLI.hpp>
 
 #include <spdlog/pattern_formatter.h>
-#include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
 #include <csignal>
@@ -13,6 +12,7 @@
 
 #include "clients/bots/house_bots.hpp"
 #include "server/app/commands.hpp"
+#include "server/app/log_sink.hpp"
 #include "server/net/server.hpp"
 #include "server/settings/server_settings.hpp"
 
@@ -58,7 +58,8 @@ class JsonText : public spdlog::custom_flag_formatter {
 
 // One line an event; JSON for machines. Nothing that is logged contains a token.
 void set_up_log(const settings::LogSettings& log) {
-  spdlog::set_default_logger(spdlog::stderr_color_mt("poolhall"));
+  spdlog::set_default_logger(
+      std::make_shared<spdlog::logger>("poolhall", std::make_shared<LogSink>()));
   spdlog::set_level(spdlog::level::from_str(log.level == "warning" ? "warn" : log.level));
   if (log.json) {
     auto formatter = std::make_unique<spdlog::pattern_formatter>();

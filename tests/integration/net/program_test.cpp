@@ -1,7 +1,11 @@
 // `poolhall serve` as a person starts it.
+#include <fcntl.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <string>
 
 #include "server_process.hpp"
@@ -68,6 +72,26 @@ TEST(Program, StopsInOrderWhenItIsAskedTo) {
   EXPECT_EQ(server.terminate(), 0);
   static_cast<void>(anna.wait_for<protocol::ShuttingDown>());
   EXPECT_FALSE(anna.read_line());
+}
+
+// The log goes into a pipe that nobody reads: it is full after some hundreds of connections.
+TEST(Program, GoesOnWhenNobodyReadsItsLog) {
+  test_support::TemporaryDirectory directory;
+  const std::string log = (directory / "server.log").string();
+  ASSERT_EQ(::mkfifo(log.c_str(), 0600), 0);
+  const int reader = ::open(log.c_str(), O_RDONLY | O_NONBLOCK);
+  const auto config = directory / "poolhall.toml";
+  std::ofstream(config) << "[limits]\nconnections_per_address = 10000\n"
+                           "messages_per_second = 100000\nmessage_burst = 100000\n";
+  ServerProcess server{directory.path(), {"--config", config.string()}};
+  WireClient anna{server.port()};
+  anna.join("anna");
+  for (int i = 0; i < 1'500; ++i) {
+    const WireClient visitor{server.port()};
+    static_cast<void>(anna.call<protocol::PingReply>(protocol::Ping{}));
+  }
+  EXPECT_EQ(server.terminate(), 0);
+  ::close(reader);
 }
 
 TEST(Program, LogsNoToken) {
