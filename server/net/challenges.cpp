@@ -19,8 +19,9 @@ constexpr std::string_view house_prefix = "house:";
 // How long the answer to a challenge is remembered for who asks again.
 constexpr std::chrono::minutes memory{10};
 constexpr std::chrono::hours longest_clock{24};
-constexpr std::size_t games_bound = 256;  // of one agent at a time
-constexpr std::size_t offers_bound = 64;  // of one agent that wait for an answer
+constexpr std::size_t games_bound = 256;   // of one agent at a time
+constexpr std::size_t offers_bound = 64;   // of one agent that wait for an answer
+constexpr std::size_t memory_bound = 256;  // challenges of one agent
 
 Error other_content() {
   return {ErrorCode::conflicting_request, "/params/challenge_id",
@@ -88,8 +89,14 @@ void Challenges::make(const Asker& asker, storage::AgentId from,
     asker.refuse(opponent.error());
     return;
   }
+  if (!has_room(from)) {
+    asker.refuse({ErrorCode::rate_limited, "",
+                  fmt::format("{} of your challenges are under way", memory_bound)});
+    return;
+  }
   const ChallengeId id{next_id_++};
   Entry& entry = entries_[id];
+  made_by_[from].insert(id);
   entry.request = request;
   entry.from = from;
   entry.to = *opponent;
@@ -194,9 +201,13 @@ protocol::Expected<storage::AgentId> Challenges::opponent_of(storage::AgentId fr
   if (agent->id() == from) {
     return unknown("another agent than yourself");
   }
-  const auto waiting = std::count_if(entries_.begin(), entries_.end(), [&](const auto& entry) {
-    return entry.second.from == from && entry.second.state == State::offered;
-  });
+  const auto own = made_by_.find(from);
+  const auto waiting =
+      own == made_by_.end()
+          ? 0
+          : std::count_if(own->second.begin(), own->second.end(), [&](const ChallengeId id) {
+              return entries_.at(id).state == State::offered;
+            });
   if (static_cast<std::size_t>(waiting) >= offers_bound) {
     return tl::unexpected(Error{ErrorCode::rate_limited, "",
                                 fmt::format("{} of your offers wait already", offers_bound)});
@@ -205,6 +216,7 @@ protocol::Expected<storage::AgentId> Challenges::opponent_of(storage::AgentId fr
 }
 
 void Challenges::offer(ChallengeId id, Entry& entry, const Asker& asker) {
+  offered_to_[entry.to].insert(id);
   entry.expires = steady_clock::now() + services_.limits.challenge_expiry;
   entry.expiry = services_.deadlines.at(entry.expires, [this, id] { expire(id); });
   reply(asker, id, entry);
@@ -261,7 +273,7 @@ void Challenges::decline(const Asker& asker, storage::AgentId by, ChallengeId id
     return;
   }
   const bool first_time = entry->state == State::offered;
-  entry->state = State::declined;
+  set_state(id, *entry, State::declined);
   reply(asker, id, *entry);
   if (first_time) {
     push(entry->from, protocol::ChallengeOver{id, protocol::ChallengeOutcome::declined});
@@ -271,7 +283,7 @@ void Challenges::decline(const Asker& asker, storage::AgentId by, ChallengeId id
 
 void Challenges::begin(ChallengeId id, const Asker& asker) {
   Entry& entry = entries_.at(id);
-  entry.state = State::starting;
+  set_state(id, entry, State::starting);
   entry.askers.push_back(asker);
   entry.expiry.cancel();
   MatchPlan plan;
@@ -293,13 +305,10 @@ void Challenges::started(ChallengeId id, const protocol::Expected<MatchId>& matc
     for (const Asker& asker : askers) {
       asker.refuse(match.error());
     }
-    if (entry.request.challenge_id) {
-      by_key_.erase({entry.from, entry.request.challenge_id->json});
-    }
-    entries_.erase(id);
+    forget(id);
     return;
   }
-  entry.state = State::accepted;
+  set_state(id, entry, State::accepted);
   entry.match = *match;
   for (const Asker& asker : askers) {
     reply(asker, id, entry);
@@ -312,28 +321,62 @@ void Challenges::started(ChallengeId id, const protocol::Expected<MatchId>& matc
 
 void Challenges::expire(ChallengeId id) {
   Entry& entry = entries_.at(id);
-  entry.state = State::expired;
+  set_state(id, entry, State::expired);
   for (const storage::AgentId agent : {entry.from, entry.to}) {
     push(agent, protocol::ChallengeOver{id, protocol::ChallengeOutcome::expired});
   }
   forget_later(id);
 }
 
+void Challenges::set_state(ChallengeId id, Entry& entry, State state) {
+  entry.state = state;
+  const auto offered = offered_to_.find(entry.to);
+  if (offered != offered_to_.end() && offered->second.erase(id) > 0 && offered->second.empty()) {
+    offered_to_.erase(offered);
+  }
+}
+
 void Challenges::forget_later(ChallengeId id) {
-  entries_.at(id).expiry = services_.deadlines.at(steady_clock::now() + memory, [this, id] {
-    const Entry& entry = entries_.at(id);
-    if (entry.request.challenge_id) {
-      by_key_.erase({entry.from, entry.request.challenge_id->json});
-    }
-    entries_.erase(id);
+  entries_.at(id).expiry =
+      services_.deadlines.at(steady_clock::now() + memory, [this, id] { forget(id); });
+}
+
+void Challenges::forget(ChallengeId id) {
+  const Entry& entry = entries_.at(id);
+  if (entry.request.challenge_id) {
+    by_key_.erase({entry.from, entry.request.challenge_id->json});
+  }
+  const auto own = made_by_.find(entry.from);
+  own->second.erase(id);
+  if (own->second.empty()) {
+    made_by_.erase(own);
+  }
+  entries_.erase(id);
+}
+
+bool Challenges::has_room(storage::AgentId from) {
+  const auto own = made_by_.find(from);
+  if (own == made_by_.end() || own->second.size() < memory_bound) {
+    return true;
+  }
+  const auto done = std::find_if(own->second.begin(), own->second.end(), [&](ChallengeId id) {
+    const State state = entries_.at(id).state;
+    return state != State::offered && state != State::starting;
   });
+  if (done == own->second.end()) {
+    return false;
+  }
+  forget(*done);
+  return true;
 }
 
 void Challenges::agent_came(storage::AgentId agent) {
-  for (const auto& [id, entry] : entries_) {
-    if (entry.to == agent && entry.state == State::offered) {
-      push(agent, offer_of(id, entry));
-    }
+  const auto offered = offered_to_.find(agent);
+  if (offered == offered_to_.end()) {
+    return;
+  }
+  for (const ChallengeId id : offered->second) {
+    push(agent, offer_of(id, entries_.at(id)));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,10 @@ class Challenges {
   void started(protocol::ChallengeId id, const protocol::Expected<MatchId>& match);
   void expire(protocol::ChallengeId id);
   void forget_later(protocol::ChallengeId id);
+  void forget(protocol::ChallengeId id);
+  // Makes room for one more of this agent's; false when all that it has made are under way.
+  [[nodiscard]] bool has_room(storage::AgentId from);
+  void set_state(protocol::ChallengeId id, Entry& entry, State state);
   void reply(const Asker& asker, protocol::ChallengeId id, const Entry& entry) const;
   void push(storage::AgentId agent, const Notification& notification) const;
   [[nodiscard]] protocol::ChallengeOffer offer_of(protocol::ChallengeId id,
@@ -79,6 +84,9 @@ class Challenges {
   std::int64_t next_id_;
   std::map<protocol::ChallengeId, Entry> entries_;
   std::map<Key, protocol::ChallengeId> by_key_;
+  // By agent, the oldest first.
+  std::map<storage::AgentId, std::set<protocol::ChallengeId>> made_by_;
+  std::map<storage::AgentId, std::set<protocol::ChallengeId>> offered_to_;  // that wait
 };
 
 }  // namespace poolhall::net
