@@ -31,6 +31,7 @@ Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
     : io_(io),
       settings_(std::move(settings)),
       deadlines_(io),
+      visitors_(settings_.limits),
       connections_{settings_.limits, deadlines_},
       untold_(archive, book_, settings_.limits),
       services_{io,
@@ -357,9 +358,9 @@ Arena::CalledOff Arena::call_off(protocol::GameId game) {
 }
 
 void Arena::when_stored(std::function<void()> then) {
-  const auto posted = services_.writer.post(
-      [](storage::Database&) { return storage::Expected<void>{}; },
-      [then](const storage::Expected<void>&) { then(); });
+  const auto posted =
+      services_.writer.post([](storage::Database&) { return storage::Expected<void>{}; },
+                            [then](const storage::Expected<void>&) { then(); });
   if (posted != storage::Posted::accepted) {
     then();
   }

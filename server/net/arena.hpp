@@ -27,6 +27,7 @@
 #include "server/net/session.hpp"
 #include "server/net/tournaments.hpp"
 #include "server/net/untold.hpp"
+#include "server/net/visitors.hpp"
 
 namespace poolhall::net {
 
@@ -80,6 +81,7 @@ class Arena final : public Lobby {
   void when_stored(std::function<void()> then);
   [[nodiscard]] Matches& matches() { return matches_; }
 
+  [[nodiscard]] Visitors& visitors() { return visitors_; }
   [[nodiscard]] MatchHost& host() { return tournaments_; }
   [[nodiscard]] ArenaFigures figures() const;
   void for_each_game(const std::function<void(const LiveGame&)>& visit) const;
@@ -89,9 +91,7 @@ class Arena final : public Lobby {
   void on_turn(std::function<void(const LiveGame&, const storage::TurnRecord&)> callback) {
     services_.on_turn = std::move(callback);
   }
-  void on_games_changed(std::function<void()> callback) {
-    on_games_changed_ = std::move(callback);
-  }
+  void on_games_changed(std::function<void()> callback) { on_games_changed_ = std::move(callback); }
 
   // Lobby.
   [[nodiscard]] const protocol::Limits& limits() const override { return settings_.limits; }
@@ -145,6 +145,7 @@ class Arena final : public Lobby {
   ArenaSettings settings_;
   WireTime time_;
   DeadlineQueue deadlines_;
+  Visitors visitors_;  // outlives connections
   ConnectionContext connections_;
   AgentBook book_;
   Untold untold_;

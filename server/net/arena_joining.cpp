@@ -79,6 +79,11 @@ void Arena::enroll(const std::shared_ptr<Session>& session, const protocol::Regi
     let_in(session, known->id(), request.token);  // whose first reply was lost
     return;
   }
+  if (const auto error =
+          visitors_.registers(session->connection().address(), steady_clock::now())) {
+    session->not_admitted(*error);
+    return;
+  }
   enroll_agent(request.name, hash_of(token),
                [this, session, token](const protocol::Expected<storage::AgentId>& agent) {
                  if (agent) {

@@ -33,14 +33,12 @@ bool means_no_resources(const boost::system::error_code& error) {
 
 }  // namespace
 
-Listener::Listener(asio::io_context& io, const protocol::Limits& limits, ConnectionCount& count,
-                   Accept accept, TurnAway turn_away)
+Listener::Listener(asio::io_context& io, Visitors& visitors, Accept accept, TurnAway turn_away)
     : io_(io),
-      limits_(limits),
       accept_(std::move(accept)),
       acceptor_(io),
       pause_(io),
-      count_(count),
+      visitors_(visitors),
       turn_away_(std::move(turn_away)) {
   reserve();
 }
@@ -106,7 +104,7 @@ asio::awaitable<void> Listener::accept_loop() {
 
 // The reserved descriptor makes room to tell one of those that wait; the others are told in turn.
 asio::awaitable<void> Listener::out_of_descriptors() {
-  spdlog::warn("no file descriptors left at {} connections", count_.open);
+  spdlog::warn("no file descriptors left at {} connections", visitors_.connections());
   if (reserved_ >= 0) {
     ::close(std::exchange(reserved_, -1));
   }
@@ -128,29 +126,12 @@ void Listener::accepted(tcp::socket socket) {
   if (error) {
     return;  // gone already
   }
-  if (count_.open >= limits_.connections) {
-    refuse(std::move(socket),
-           {ErrorCode::server_full, "",
-            fmt::format("the server has {} connections, its bound", count_.open)});
+  if (const auto refused = visitors_.arrives(peer.address(), std::chrono::steady_clock::now())) {
+    refuse(std::move(socket), *refused);
     return;
   }
-  std::uint32_t& of_address = count_.per_address[peer.address()];
-  if (of_address >= limits_.connections_per_address) {
-    refuse(
-        std::move(socket),
-        {ErrorCode::server_full, "",
-         fmt::format("{} connections from your address, the most that one may have", of_address)});
-    return;
-  }
-  ++of_address;
-  ++count_.open;
-  accept_(std::move(socket), [&count = count_, address = peer.address()] {
-    --count.open;
-    const auto found = count.per_address.find(address);
-    if (found != count.per_address.end() && --found->second == 0) {
-      count.per_address.erase(found);
-    }
-  });
+  accept_(std::move(socket),
+          [&visitors = visitors_, address = peer.address()] { visitors.leaves(address); });
 }
 
 // One line, whatever of it the socket takes at once, and the end. What has come in is read first:

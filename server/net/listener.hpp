@@ -1,7 +1,7 @@
 // Accepts connections, counts them, and goes on accepting whatever happens: refusals are said in
 // the protocol, and running out of file descriptors is waited out.
 //
-//   Listener listener{io, limits, count, [&](tcp::socket socket, auto gone) { arena.accept(...);
+//   Listener listener{io, visitors, [&](tcp::socket socket, auto gone) { arena.accept(...);
 //   }}; if (auto bound = listener.open(endpoint); !bound) die(bound.error()); listener.start();
 #pragma once
 
@@ -11,23 +11,15 @@
 #include <boost/asio/steady_timer.hpp>
 #include <cstdint>
 #include <functional>
-#include <map>
-#include <memory>
 #include <string>
 
 #include <tl/expected.hpp>
 
 #include "protocol/errors.hpp"
-#include "protocol/limits.hpp"
 #include "server/net/server.hpp"
+#include "server/net/visitors.hpp"
 
 namespace poolhall::net {
-
-// How many connections there are, on all ports together.
-struct ConnectionCount {
-  std::size_t open = 0;
-  std::map<boost::asio::ip::address, std::uint32_t> per_address{};
-};
 
 class Listener {
  public:
@@ -39,8 +31,7 @@ class Listener {
       std::function<void(boost::asio::ip::tcp::socket socket, const protocol::Error& error)>;
 
   // Without `turn_away` refusals are written in plain text.
-  Listener(boost::asio::io_context& io, const protocol::Limits& limits, ConnectionCount& count,
-           Accept accept, TurnAway turn_away = {});
+  Listener(boost::asio::io_context& io, Visitors& visitors, Accept accept, TurnAway turn_away = {});
   ~Listener();
   Listener(const Listener&) = delete;
   Listener& operator=(const Listener&) = delete;
@@ -61,12 +52,11 @@ class Listener {
   void reserve();
 
   boost::asio::io_context& io_;
-  const protocol::Limits& limits_;
   Accept accept_;
   boost::asio::ip::tcp::acceptor acceptor_;
   boost::asio::steady_timer pause_;
   int reserved_ = -1;  // a descriptor to give up when there are no others
-  ConnectionCount& count_;
+  Visitors& visitors_;
   TurnAway turn_away_;
   std::uint64_t refused_ = 0;
 };

@@ -179,7 +179,6 @@ class Server::Impl {
   std::unique_ptr<Arena> arena_;
   std::unique_ptr<TournamentDesk> desk_;
   std::unique_ptr<web::Admin> admin_;
-  ConnectionCount connections_;
   std::unique_ptr<TlsContext> tls_;
   std::unique_ptr<Listener> listener_;
   std::unique_ptr<Listener> tls_listener_;
@@ -297,11 +296,10 @@ tl::expected<void, std::string> Server::Impl::listen() {
   if (!endpoint) {
     return tl::unexpected(endpoint.error());
   }
-  listener_ =
-      std::make_unique<Listener>(io_, options_.settings.limits, connections_,
-                                 [this](asio::ip::tcp::socket socket, std::function<void()> gone) {
-                                   arena_->accept({std::move(socket), nullptr}, std::move(gone));
-                                 });
+  listener_ = std::make_unique<Listener>(
+      io_, arena_->visitors(), [this](asio::ip::tcp::socket socket, std::function<void()> gone) {
+        arena_->accept({std::move(socket), nullptr}, std::move(gone));
+      });
   if (auto bound = listener_->open(*endpoint); !bound) {
     return bound;
   }
@@ -328,7 +326,7 @@ tl::expected<void, std::string> Server::Impl::listen_tls() {
   }
   SSL_CTX* const native = tls_->native_handle();
   tls_listener_ = std::make_unique<Listener>(
-      io_, options_.settings.limits, connections_,
+      io_, arena_->visitors(),
       [this, native](asio::ip::tcp::socket socket, std::function<void()> gone) {
         arena_->accept({std::move(socket), native}, std::move(gone));
       },

@@ -56,6 +56,11 @@ Delivery delivery_of(boost::asio::ip::tcp::socket& socket) {
   return delivery;
 }
 
+boost::asio::ip::address peer_address(const boost::asio::ip::tcp::socket& socket) {
+  boost::system::error_code error;
+  return socket.remote_endpoint(error).address();
+}
+
 std::string peer_name(const boost::asio::ip::tcp::socket& socket) {
   boost::system::error_code error;
   const auto endpoint = socket.remote_endpoint(error);

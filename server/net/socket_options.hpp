@@ -23,6 +23,8 @@ void set_user_timeout(boost::asio::ip::tcp::socket& socket,
 
 // "127.0.0.1:40312", or "?" when the peer is gone already.
 [[nodiscard]] std::string peer_name(const boost::asio::ip::tcp::socket& socket);
+// Unspecified when the peer is gone already.
+[[nodiscard]] boost::asio::ip::address peer_address(const boost::asio::ip::tcp::socket& socket);
 
 // As many file descriptors as the system lets us have; the limit now in force.
 [[nodiscard]] std::uint64_t raise_descriptor_limit();
