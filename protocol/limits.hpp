@@ -32,8 +32,14 @@ struct Limits {
   std::chrono::milliseconds takeover_interval{1'000};  // between two logins with one token
   std::size_t untold_ends = 256;  // of each kind, told again after a login; the latest
 
+  // What is read from one connection; what comes faster waits in the sender's system.
+  std::size_t input_bytes_per_second = 256 * 1024;
+  std::size_t input_burst_bytes = 1024 * 1024;
+
   // Queues.
   std::size_t output_queue_bytes = 4 * 1024 * 1024;
+  // All connections' together; beyond it whoever leaves most unread is dropped sooner.
+  std::size_t output_bytes_in_all = 512 * 1024 * 1024;
   std::size_t spectator_queue_bytes = 256 * 1024;
   std::chrono::milliseconds tcp_user_timeout{30'000};
 

@@ -8,8 +8,10 @@
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/post.hpp>
+#include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 
+#include <cmath>
 #include <span>
 
 #include "server/meter/work_meter.hpp"
@@ -30,6 +32,8 @@ constexpr std::chrono::seconds linger{2};
 // A peer that does not read closes its window, and its system answers the probes of it, at most
 // two minutes apart.
 constexpr std::chrono::seconds longest_probe_pause{150};
+// What any connection may leave unread, however much all leave together.
+constexpr std::size_t fair_share = 64 * 1024;
 
 }  // namespace
 
@@ -37,8 +41,10 @@ Connection::Connection(Channel channel, ConnectionId id, ConnectionContext& cont
     : channel_(std::move(channel)),
       id_(id),
       peer_(peer_name(channel_.socket())),
+      address_(peer_address(channel_.socket())),
       context_(context),
-      splitter_(context.limits.line_bytes_before_login) {}
+      splitter_(context.limits.line_bytes_before_login),
+      queued_in_all_(context.queued_bytes) {}
 
 Connection::~Connection() {
   on_gone_ = nullptr;  // whoever counted may be gone by now
@@ -55,7 +61,7 @@ void Connection::send(Line line) {
   if (state_ != State::open) {
     return;
   }
-  if (queued_bytes_ + line->size() > context_.limits.output_queue_bytes) {
+  if (!has_room_for(line->size())) {
     drop_unsent();
     if (const auto handler = handler_.lock()) {
       handler->on_output_unread();
@@ -65,9 +71,26 @@ void Connection::send(Line line) {
     }
     return;
   }
-  queued_bytes_ += line->size();
+  count_queued(line->size());
   out_.push_back(std::move(line));
   schedule_flush();
+}
+
+bool Connection::has_room_for(std::size_t bytes) const {
+  const std::size_t queued = queued_bytes_ + bytes;
+  const protocol::Limits& limits = context_.limits;
+  return queued <= limits.output_queue_bytes &&
+         (queued <= fair_share || *queued_in_all_ + bytes <= limits.output_bytes_in_all);
+}
+
+void Connection::count_queued(std::size_t bytes) {
+  queued_bytes_ += bytes;
+  *queued_in_all_ += bytes;
+}
+
+void Connection::count_unqueued(std::size_t bytes) {
+  queued_bytes_ -= bytes;
+  *queued_in_all_ -= bytes;
 }
 
 void Connection::close(Line last, std::string why) {
@@ -76,7 +99,7 @@ void Connection::close(Line last, std::string why) {
   }
   state_ = State::closing;
   line_deadline_.cancel();
-  queued_bytes_ += last->size();
+  count_queued(last->size());
   out_.push_back(std::move(last));
   tell_closed(std::move(why));
   linger_deadline_ =
@@ -108,6 +131,7 @@ void Connection::read_arrived() {
     if (got.state != Channel::State::done) {
       return;
     }
+    pay_for(got.bytes);
     take({buffer.data(), got.bytes}, std::chrono::steady_clock::now());
     arrived -= got.bytes;
   }
@@ -127,9 +151,34 @@ asio::awaitable<void> Connection::read_loop(std::shared_ptr<Connection> self) {
     if (!channel_.socket().is_open() || !read_once()) {
       break;
     }
+    if (is_ahead_of_its_pace()) {
+      co_await keep_pace();
+    }
   }
   abort("the connection has ended");
   static_cast<void>(self);
+}
+
+// Reading costs more than sending: who sends without an end waits, not the others.
+asio::awaitable<void> Connection::keep_pace() {
+  asio::steady_timer pause(channel_.socket().get_executor(),
+                           paid_until_ - time_for(context_.limits.input_burst_bytes));
+  co_await pause.async_wait(awaited);
+}
+
+bool Connection::is_ahead_of_its_pace() const {
+  return paid_until_ - std::chrono::steady_clock::now() >
+         time_for(context_.limits.input_burst_bytes);
+}
+
+void Connection::pay_for(std::size_t bytes) {
+  paid_until_ = std::max(paid_until_, std::chrono::steady_clock::now()) + time_for(bytes);
+}
+
+std::chrono::nanoseconds Connection::time_for(std::size_t bytes) const {
+  const double seconds =
+      static_cast<double>(bytes) / static_cast<double>(context_.limits.input_bytes_per_second);
+  return std::chrono::nanoseconds{std::llround(1e9 * seconds)};
 }
 
 // False at the end of the stream. One read a turn, so that nobody's flood keeps others waiting.
@@ -143,6 +192,7 @@ bool Connection::read_once() {
   if (got.state == Channel::State::ended) {
     return false;
   }
+  pay_for(got.bytes);
   if (got.state == Channel::State::done && state_ == State::open) {
     take({context_.scratch.data(), got.bytes}, std::chrono::steady_clock::now());
   }
@@ -287,7 +337,7 @@ bool Connection::write_some() {
 }
 
 void Connection::written(std::size_t bytes) {
-  queued_bytes_ -= bytes;
+  count_unqueued(bytes);
   while (bytes > 0) {
     const std::size_t left = out_.front()->size() - out_offset_;
     if (bytes < left) {
@@ -304,7 +354,7 @@ void Connection::written(std::size_t bytes) {
 void Connection::drop_unsent() {
   const std::size_t keep = out_offset_ > 0 || channel_.has_unsent() ? 1 : 0;
   out_.resize(keep);
-  queued_bytes_ = keep == 0 ? 0 : out_.front()->size() - out_offset_;
+  count_unqueued(queued_bytes_ - (keep == 0 ? 0 : out_.front()->size() - out_offset_));
 }
 
 // Ends the sending half; the rest of what the peer sends is read until it ends too, for a socket
@@ -337,7 +387,7 @@ void Connection::close_socket() {
   delivery_check_.cancel();
   channel_.close();
   out_.clear();
-  queued_bytes_ = 0;
+  count_unqueued(queued_bytes_);
   if (on_gone_) {
     std::exchange(on_gone_, nullptr)();
   }

@@ -38,6 +38,8 @@ using Line = std::shared_ptr<const std::string>;
 struct ConnectionContext {
   const protocol::Limits& limits;
   DeadlineQueue& deadlines;
+  // Of all connections; theirs too, for the last of them may outlive the rest.
+  std::shared_ptr<std::size_t> queued_bytes = std::make_shared<std::size_t>(0);
   std::vector<char> scratch = std::vector<char>(64 * 1024);
 };
 
@@ -71,6 +73,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void set_line_limit(std::size_t bytes) { splitter_.set_limit(bytes); }
   [[nodiscard]] ConnectionId id() const { return id_; }
   [[nodiscard]] const std::string& peer() const { return peer_; }
+  [[nodiscard]] const boost::asio::ip::address& address() const { return address_; }
   [[nodiscard]] bool open() const { return state_ == State::open; }
   [[nodiscard]] std::size_t queued_bytes() const { return queued_bytes_; }
   // Called when the socket is gone; for whoever counts sockets.
@@ -82,6 +85,14 @@ class Connection : public std::enable_shared_from_this<Connection> {
   boost::asio::awaitable<void> read_loop(std::shared_ptr<Connection> self);
   boost::asio::awaitable<void> write_loop(std::shared_ptr<Connection> self);
   [[nodiscard]] bool read_once();
+  // Until it has sent no more than it may have.
+  [[nodiscard]] bool is_ahead_of_its_pace() const;
+  boost::asio::awaitable<void> keep_pace();
+  void pay_for(std::size_t bytes);
+  [[nodiscard]] std::chrono::nanoseconds time_for(std::size_t bytes) const;
+  [[nodiscard]] bool has_room_for(std::size_t bytes) const;
+  void count_queued(std::size_t bytes);
+  void count_unqueued(std::size_t bytes);
   void take(std::string_view bytes, SteadyTime read_at);
   void watch_line();
   void schedule_flush();
@@ -99,6 +110,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   Channel channel_;
   ConnectionId id_;
   std::string peer_;
+  boost::asio::ip::address address_;
   ConnectionContext& context_;
   std::weak_ptr<Handler> handler_;
   protocol::LineSplitter splitter_;
@@ -108,6 +120,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::deque<Line> out_;
   std::size_t out_offset_ = 0;  // bytes of out_.front() that the socket has taken
   std::size_t queued_bytes_ = 0;
+  std::shared_ptr<std::size_t> queued_in_all_;
+  SteadyTime paid_until_{};  // what has been read is within the rate from then on
   State state_ = State::open;
   bool flush_pending_ = false;
   bool writing_ = false;       // write_loop runs

@@ -57,6 +57,15 @@ void add_rate_limits(Keys<ServerSettings>& keys) {
 
 void add_queue_limits(Keys<ServerSettings>& keys) {
   keys.add(
+      "limits.input_bytes_per_second", WholeNumber{kib, 1024 * mib},
+      [](auto& s) -> auto& { return s.limits.input_bytes_per_second; });
+  keys.add(
+      "limits.input_burst_bytes", WholeNumber{64 * kib, 1024 * mib},
+      [](auto& s) -> auto& { return s.limits.input_burst_bytes; });
+  keys.add(
+      "limits.output_bytes_in_all", WholeNumber{mib, 1024 * 1024 * mib},
+      [](auto& s) -> auto& { return s.limits.output_bytes_in_all; });
+  keys.add(
       "limits.output_queue_bytes", WholeNumber{64 * kib, 1024 * mib},
       [](auto& s) -> auto& { return s.limits.output_queue_bytes; });
   keys.add(

@@ -370,6 +370,7 @@ protocol::Limits limits_for_bad_clients() {
   limits.login_deadline = milliseconds{2'000};
   limits.line_deadline = milliseconds{500};
   limits.output_queue_bytes = 1024 * 1024;
+  limits.input_bytes_per_second = 64 * 1024 * 1024;
   limits.message_burst = 1'000;
   limits.connections_per_address = 10'000;
   limits.takeover_interval = milliseconds{0};

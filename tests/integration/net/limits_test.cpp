@@ -199,6 +199,7 @@ TEST_F(LimitsTest, AFullServerSaysSo) {
 
 TEST_F(LimitsTest, WhoDoesNotReadIsSentAwayAndNobodyElse) {
   limits().output_queue_bytes = 64 * 1024;
+  limits().input_bytes_per_second = 1 << 30;
   limits().messages_per_second = 1e6;
   limits().message_burst = 1e6;
   WireClient anna{port()};
@@ -216,6 +217,105 @@ TEST_F(LimitsTest, WhoDoesNotReadIsSentAwayAndNobodyElse) {
   }
   EXPECT_NE(last.find("unread_output"), std::string::npos) << last.substr(0, 200);
   static_cast<void>(anna.call<protocol::PingReply>(protocol::Ping{}));
+}
+
+TEST_F(LimitsTest, WhoLeavesMostUnreadIsSentAwayWhenAllTogetherLeaveTooMuch) {
+  limits().output_bytes_in_all = 128 * 1024;
+  limits().input_bytes_per_second = 1 << 30;
+  limits().messages_per_second = 1e6;
+  limits().message_burst = 1e6;
+  WireClient anna{port()};
+  WireClient lazy{port()};
+  anna.join("anna");
+  lazy.join("lazy");
+  const std::string ping = R"({"jsonrpc":"2.0","id":1,"method":"ping","params":{"t":")" +
+                           std::string(3'000, 'x') + "\"}}\n";
+  for (int i = 0; i < 5'000; ++i) {
+    lazy.send_bytes(ping);
+  }
+  std::string last;
+  while (auto line = lazy.read_line()) {
+    last = std::move(*line);
+  }
+  EXPECT_NE(last.find("unread_output"), std::string::npos) << last.substr(0, 200);
+  static_cast<void>(anna.call<protocol::PingReply>(protocol::Ping{}));
+}
+
+// The sender has used up its pace for two minutes, and its clock has two seconds.
+TEST_F(LimitsTest, AnAnswerThatWaitsForItsSendersPaceIsReadBeforeTheFlagFalls) {
+  limits().input_bytes_per_second = 1024;
+  limits().input_burst_bytes = 64 * 1024;
+  limits().message_burst = 1'000;
+  WireClient anna{port()};
+  WireClient bert{port()};
+  anna.join("anna");
+  bert.join("bert");
+  protocol::ClockSettings clock;
+  clock.game_ms = 2'000;
+  const protocol::GameId game = start_game(anna, bert, "bert", clock);
+  const Turn turn = anna.wait_for<Turn>();
+  const std::string ping = R"({"jsonrpc":"2.0","id":900,"method":"ping","params":{"t":")" +
+                           std::string(10'000, 'x') + "\"}}\n";
+  for (int i = 0; i < 20; ++i) {
+    anna.send_bytes(ping);
+  }
+  const auto reply = anna.call<protocol::ShotReply<Received>>(scripted_shot(turn));
+  EXPECT_EQ(reply.shot.game, game);
+  EXPECT_EQ(reply.shot.turn, turn.turn);
+}
+
+TEST_F(LimitsTest, AnAgentsOldChallengesMakeRoomForNewOnes) {
+  limits().messages_per_second = 1e6;
+  limits().message_burst = 1e6;
+  WireClient anna{port()};
+  WireClient bert{port()};
+  anna.join("anna");
+  bert.join("bert");
+  protocol::Challenge challenge;
+  challenge.opponent = "bert";
+  const auto ask = [&](int i) {
+    challenge.challenge_id = protocol::ShotId{std::to_string(i)};
+    return anna.call<protocol::ChallengeReply>(challenge).challenge;
+  };
+  const auto decline = [&](protocol::ChallengeId id) {
+    static_cast<void>(bert.call<protocol::ChallengeReply>(protocol::ChallengeDecline{id}));
+  };
+  const auto first = ask(0);
+  decline(first);
+  EXPECT_EQ(ask(0), first);
+  protocol::ChallengeId last{};
+  for (int i = 1; i <= 256; ++i) {
+    last = ask(i);
+    decline(last);
+  }
+  EXPECT_EQ(ask(256), last);
+  EXPECT_NE(ask(0), first);
+}
+
+TEST_F(LimitsTest, AnAddressMakesOnlySoManyConnectionsAtOnce) {
+  std::string code;
+  for (int i = 0; i < 1'000 && code.empty(); ++i) {
+    WireClient client{port()};
+    client.send_bytes(R"({"jsonrpc":"2.0","id":1,"method":"nothing"})"
+                      "\n");
+    const auto line = client.read_line();
+    code = line && line->find("rate_limited") != std::string::npos ? "rate_limited" : "";
+  }
+  EXPECT_EQ(code, "rate_limited");
+}
+
+TEST_F(LimitsTest, AnAddressRegistersOnlySoManyAgentsAtOnce) {
+  limits().connections_per_address = 60;
+  std::string code;
+  for (int i = 0; i < 2'000 && code.empty(); ++i) {
+    WireClient client{port()};
+    client.hello();
+    auto answer = client.answer_to(client.send(protocol::Register{"a" + std::to_string(i), {}}));
+    if (const auto* refused = std::get_if<protocol::ErrorMessage>(&answer)) {
+      code = refused->code;
+    }
+  }
+  EXPECT_EQ(code, "rate_limited");
 }
 
 TEST_F(LimitsTest, LinesMayComeByteByByteOrManyAtOnce) {

@@ -138,6 +138,7 @@ TEST_F(Tls, CountsItsConnectionsWithThePlainOnesAndSaysThatThereAreTooMany) {
 
 TEST_F(Tls, SendsAwayWhoDoesNotRead) {
   options_.settings.limits.output_queue_bytes = 64 * 1024;
+  options_.settings.limits.input_bytes_per_second = 1 << 30;
   options_.settings.limits.messages_per_second = 1e6;
   options_.settings.limits.message_burst = 1e6;
   WireClient lazy{port(), certificate_.file};
