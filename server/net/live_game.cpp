@@ -266,14 +266,13 @@ void LiveGame::settle(match::PlayOutcome outcome) {
 void LiveGame::write(match::Store what, const Asker& asker) {
   flag_.cancel();
   asker_ = asker;
-  store_ = std::move(what);
+  store_ = std::make_shared<const match::Store>(std::move(what));
   post_write();
 }
 
 void LiveGame::post_write() {
-  auto what = std::make_shared<const match::Store>(*store_);
   const storage::Posted posted = services_.writer.post(
-      [what](storage::Database& database) -> storage::Expected<void> {
+      [what = store_](storage::Database& database) -> storage::Expected<void> {
         auto appended = database.append_turn(what->turn);
         if (!appended || !what->game) {
           return appended;
@@ -296,9 +295,9 @@ void LiveGame::written(const storage::Expected<void>& stored) {
     return;
   }
   failures_ = 0;
-  const match::Store what = std::move(*std::exchange(store_, std::nullopt));
+  const auto what = std::exchange(store_, nullptr);
   game_.stored();
-  tell(what);
+  tell(*what);
   if (game_.phase() == Phase::over) {
     if (pair_) {
       pair_->noise->leave(pair_->side);

@@ -148,11 +148,11 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   Deadline reveal_deadline_;
   Deadline flag_;
   Deadline write_retry_;
-  Asker asker_;                        // of what is in flight
-  std::vector<Asker> joined_;          // who asked the same meanwhile
-  std::vector<GameRequest> waiting_;   // what cannot be answered while something is in flight
-  std::optional<match::Store> store_;  // being stored
-  std::uint32_t failures_ = 0;         // of storing, in a row
+  Asker asker_;                       // of what is in flight
+  std::vector<Asker> joined_;         // who asked the same meanwhile
+  std::vector<GameRequest> waiting_;  // what cannot be answered while something is in flight
+  std::shared_ptr<const match::Store> store_;  // being stored
+  std::uint32_t failures_ = 0;                 // of storing, in a row
 };
 
 [[nodiscard]] Side side_of(Seat seat, const std::shared_ptr<Session>& session);
