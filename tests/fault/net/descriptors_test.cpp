@@ -37,7 +37,9 @@ std::string greeted(WireClient& client) {
 
 TEST(WithoutDescriptors, TheServerSaysSoAndGamesGoOn) {
 #ifdef __SANITIZE_ADDRESS__
-  GTEST_SKIP() << "fails under AddressSanitizer where no descriptor is left; not yet understood";
+  // UBSan, which that build has too, looks at an object's type through a pipe: where there is no
+  // descriptor for one it takes every sound object for a wrong one and ends the server.
+  GTEST_SKIP() << "UBSan's vptr check needs file descriptors itself";
 #endif
   test_support::TemporaryDirectory directory;
   ServerProcess server{directory.path()};
