@@ -1,7 +1,8 @@
 #!/usr/bin/python3
-"""Validates a recorded session against the schemas of protocol/schema.
+"""Validates recorded sessions against the schemas of protocol/schema.
 
     validate_messages.py SCHEMA_FOLDER < session.txt
+    validate_messages.py SCHEMA_FOLDER FOLDER_OF_SESSIONS
 
 A line "> {...}" went from an agent to the server, "< {...}" came back; lines that begin with "#"
 and empty lines are passed over, and so is "! ...", a line of an agent that is wrong on purpose. "s {...}"
@@ -60,19 +61,32 @@ def check(schemas, direction, message, methods):
             + schemas.errors(message.get("result"), "reply.schema.json", method))
 
 
-def main():
-    schemas = Schemas(sys.argv[1])
+def check_session(schemas, lines, name=""):
     methods, valid, wrong = {}, 0, 0
-    for number, line in enumerate(sys.stdin, 1):
+    for number, line in enumerate(lines, 1):
         line = line.rstrip("\n")
         if not line or line[0] in "#!":
             continue
         found = check(schemas, line[0], json.loads(line[2:]), methods)
         for error in found[:3]:
-            print(f"line {number}: {error}")
+            print(f"{name}line {number}: {error}")
         wrong += bool(found)
         valid += not found
-    print(f"{valid} valid, {wrong} wrong")
+    return valid, wrong
+
+
+def main():
+    schemas = Schemas(sys.argv[1])
+    if len(sys.argv) < 3:
+        valid, wrong = check_session(schemas, sys.stdin)
+        print(f"{valid} valid, {wrong} wrong")
+        return 1 if wrong else 0
+    valid, wrong, sessions = 0, 0, 0
+    for path in sorted(pathlib.Path(sys.argv[2]).glob("*.txt")):
+        with path.open(encoding="utf-8", newline="\n") as lines:
+            found = check_session(schemas, lines, f"{path}: ")
+        valid, wrong, sessions = valid + found[0], wrong + found[1], sessions + 1
+    print(f"{valid} valid, {wrong} wrong in {sessions} sessions")
     return 1 if wrong else 0
 
 

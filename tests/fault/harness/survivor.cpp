@@ -91,6 +91,7 @@ void Survivor::connect() {
   stage_ = Stage::connecting;
   ++session_;
   link_ = std::make_shared<load::Link>(io_, traffic_);
+  recorder_ = {};
   link_->open(
       *server_,
       {.on_open =
@@ -128,8 +129,13 @@ void Survivor::go_away() {
   acks_.clear();
 }
 
+void Survivor::send_line(std::string line) {
+  recorder_.sent(line);
+  link_->send(std::move(line));
+}
+
 std::int64_t Survivor::send(const protocol::Request& request) {
-  link_->send(protocol::encode_request(next_id_, request));
+  send_line(protocol::encode_request(next_id_, request));
   return next_id_++;
 }
 
@@ -155,6 +161,8 @@ void Survivor::logged_in(std::string_view line) {
 }
 
 void Survivor::line_came(std::string_view line) {
+  recorder_.received(line);
+  recorder_.received("\n");
   const load::SeenLine seen = load::look_at(line);
   switch (seen.kind) {
     case LineKind::reply:
@@ -178,7 +186,7 @@ void Survivor::line_came(std::string_view line) {
     case LineKind::game_over:
       return over(line);
     case LineKind::lag:
-      link_->send(protocol::encode_lag({load::integer_in(line, "t").value_or(0)}));
+      send_line(protocol::encode_lag({load::integer_in(line, "t").value_or(0)}));
       return;
     case LineKind::superseded:
       counts_.complaints.push_back(name() + " was superseded by nobody");

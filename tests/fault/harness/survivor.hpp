@@ -25,6 +25,7 @@
 #include "clients/load/quick_play.hpp"
 #include "protocol/codec.hpp"
 #include "tests/fault/harness/ledger.hpp"
+#include "tests/support/session_recorder.hpp"
 
 namespace poolhall::fault {
 
@@ -101,6 +102,7 @@ class Survivor {
   void open_desk(std::string_view line);
   Desk* desk_of(std::string_view line);
   Desk* desk_asking(std::int64_t id);
+  void send_line(std::string line);
   std::int64_t send(const protocol::Request& request);
   void after(std::chrono::milliseconds wait, std::function<void()> what);
   [[nodiscard]] bool happens(double chance);
@@ -113,6 +115,7 @@ class Survivor {
   std::string token_;
   std::mt19937_64 random_;
   std::shared_ptr<load::Link> link_;
+  test_support::SessionRecorder recorder_;  // of the connection
   std::optional<boost::asio::ip::tcp::endpoint> server_{};
   SteadyTime server_started_{};
   Stage stage_ = Stage::away;

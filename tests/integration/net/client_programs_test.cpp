@@ -4,6 +4,7 @@
 #include <string>
 
 #include "clients/cpp/client.hpp"
+#include "recording_proxy.hpp"
 #include "server_process.hpp"
 #include "tests/support/run_command.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -14,9 +15,10 @@ namespace {
 TEST(ClientPrograms, ThePythonExamplePlaysAWholeGameAgainstGreedy) {
   test_support::TemporaryDirectory directory;
   ServerProcess server{directory.path()};
+  const RecordingProxy proxy{server.port()};
   const test_support::Ran played = test_support::run_command(
       "timeout 200 python3 " POOLHALL_SOURCE_DIR "/clients/python/example_bot.py 127.0.0.1:" +
-      std::to_string(server.port()));
+      std::to_string(proxy.port()));
   EXPECT_EQ(played.exit_code, 0) << played.err;
   EXPECT_EQ(played.out.rfind("game over:", 0), 0U) << played.err;
 }
@@ -24,8 +26,9 @@ TEST(ClientPrograms, ThePythonExamplePlaysAWholeGameAgainstGreedy) {
 TEST(ClientPrograms, TheCppClientPlaysAHouseBotToTheEnd) {
   test_support::TemporaryDirectory directory;
   ServerProcess server{directory.path()};
+  const RecordingProxy proxy{server.port()};
   client::ClientOptions options;
-  options.port = std::to_string(server.port());
+  options.port = std::to_string(proxy.port());
   options.agent.name = "conceder";
   options.agent.challenges = {protocol::Challenge{.opponent = "house:random"}};
   options.agent.games = 1;

@@ -59,6 +59,7 @@ void WireClient::send_bytes(std::string_view bytes) {
     if (sent <= 0) {
       return;  // the server has ended the connection; what it said can still be read
     }
+    recorder_.sent(bytes.substr(0, static_cast<std::size_t>(sent)));
     bytes.remove_prefix(static_cast<std::size_t>(sent));
   }
 }
@@ -90,6 +91,7 @@ bool WireClient::receive() {
   if (got > 0) {
     input_.append(buffer, static_cast<std::size_t>(got));
     heard_.append(buffer, static_cast<std::size_t>(got));
+    recorder_.received({buffer, static_cast<std::size_t>(got)});
   }
   return got > 0;
 }

@@ -19,6 +19,7 @@
 #include <variant>
 
 #include "protocol/codec.hpp"
+#include "tests/support/session_recorder.hpp"
 
 namespace poolhall::net_tests {
 
@@ -102,6 +103,7 @@ class WireClient {
 
   int socket_ = -1;
   std::unique_ptr<Tls> tls_;
+  test_support::SessionRecorder recorder_;
   std::string input_;
   std::string heard_;
   std::int64_t next_id_ = 1;
