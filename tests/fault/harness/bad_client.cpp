@@ -315,6 +315,103 @@ BadVisit logs_in_twice(std::uint16_t port, EndLog&) {
   return ended_with(first, "superseded");
 }
 
+// Each reaches a bound of the JSON that is read, on and on.
+BadVisit nests_deeply(std::uint16_t port, EndLog&) {
+  Rude rude(port);
+  std::string lines;
+  for (int i = 0; i < 20; ++i) {
+    lines += R"({"jsonrpc":"2.0","id":1,"method":"ping","params":{"t":)" + std::string(3'000, '[') +
+             '\n';
+  }
+  rude.say(lines);
+  return ended_with(rude, "too_many_errors");
+}
+
+BadVisit repeats_keys(std::uint16_t port, EndLog&) {
+  Rude rude(port);
+  std::string line = R"({"jsonrpc":"2.0","id":1,"method":"ping","params":{)";
+  for (int i = 0; i < 200; ++i) {
+    line += "\"t\":1,";
+  }
+  line.back() = '}';
+  line += "}\n";
+  for (int i = 0; i < 20; ++i) {
+    rude.say(line);
+  }
+  return ended_with(rude, "too_many_errors");
+}
+
+// Long lines with short answers, and far more of them than are answered.
+BadVisit floods_with_long_lines(std::uint16_t port, EndLog&) {
+  Rude rude(port);
+  static_cast<void>(log_in(rude));
+  std::string line = protocol::encode_request(10, protocol::Sync{protocol::GameId{1'000'000}});
+  line.insert(1, "\"pad\":\"" + std::string(16'000, 'x') + "\",");
+  std::thread talker([&] {
+    for (std::size_t i = 0; i < 2'500; ++i) {
+      rude.say(line);
+    }
+  });
+  BadVisit visit = ended_with(rude, "rate_limited");
+  talker.join();
+  return visit;
+}
+
+BadVisit comes_and_goes(std::uint16_t port, EndLog&) {
+  for (int i = 0; i < 300; ++i) {
+    const Rude rude(port);
+    rude.push(hello_line());
+  }
+  Rude rude(port);
+  rude.say(hello_line());
+  const auto greeting = rude.hear();
+  return {rude.local_port(),
+          greeting ? std::nullopt : std::optional<std::string>("was not answered")};
+}
+
+// One agent, logged in again and again; only the last one stays.
+BadVisit storms_in(std::uint16_t port, EndLog&) {
+  Rude first(port);
+  const std::string login = protocol::encode_request(2, protocol::Login{{log_in(first)}});
+  for (int i = 0; i < 100; ++i) {
+    Rude again(port);
+    again.say(hello_line() + login);
+    static_cast<void>(again.hear());
+  }
+  return ended_with(first, "superseded");
+}
+
+BadVisit challenges_without_end(std::uint16_t port, EndLog&) {
+  Rude rude(port);
+  Rude bold(port);
+  const std::string name = "challenged-" + std::to_string(rude.local_port());
+  rude.say(hello_line() + protocol::encode_request(2, protocol::Register{name, {}}));
+  static_cast<void>(rude.hear());
+  static_cast<void>(rude.hear());
+  static_cast<void>(log_in(bold));
+  protocol::Challenge challenge;
+  challenge.opponent = name;
+  std::string lines;
+  for (int i = 0; i < 400; ++i) {
+    lines += protocol::encode_request(10 + i, challenge);
+  }
+  bold.say(lines);
+  int offers = 0;
+  for (int answers = 0; answers < 400;) {
+    const auto line = bold.hear();
+    if (!line) {
+      return {bold.local_port(), "was not answered"};
+    }
+    const load::SeenLine seen = load::look_at(*line);
+    answers += seen.id >= 10 ? 1 : 0;
+    offers += seen.id >= 10 && seen.kind == load::LineKind::reply ? 1 : 0;
+  }
+  return {bold.local_port(),
+          offers <= 64
+              ? std::nullopt
+              : std::optional<std::string>("made " + std::to_string(offers) + " offers at a time")};
+}
+
 BadVisit plays_others_games(std::uint16_t port, EndLog&) {
   Rude rude(port);
   static_cast<void>(log_in(rude));
@@ -361,6 +458,12 @@ const std::vector<BadClient>& bad_clients() {
       {"sends what is no text", "too_many_errors", sends_no_text},
       {"logs in twice", "superseded", logs_in_twice},
       {"plays others' games", "the connection has ended", plays_others_games},
+      {"nests arrays by thousands", "too_many_errors", nests_deeply},
+      {"gives a key twice", "too_many_errors", repeats_keys},
+      {"floods with the longest lines", "rate_limited", floods_with_long_lines},
+      {"comes and goes", "the connection has ended", comes_and_goes},
+      {"logs in over and over", "superseded", storms_in},
+      {"challenges without an end", "the connection has ended", challenges_without_end},
   };
   return all;
 }
