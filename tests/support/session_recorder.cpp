@@ -63,6 +63,10 @@ void SessionRecorder::received(std::string_view bytes) {
     return;
   }
   to_agent_ += bytes;
+  if (to_agent_.starts_with("HTTP/")) {
+    file_.close();  // the page's port: its answers are held against other schemas
+    return;
+  }
   while (const auto line = take_line(to_agent_)) {
     file_ << "< " << *line << '\n';
   }

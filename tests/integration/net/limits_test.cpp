@@ -254,10 +254,9 @@ TEST_F(LimitsTest, AnAnswerThatWaitsForItsSendersPaceIsReadBeforeTheFlagFalls) {
   clock.game_ms = 2'000;
   const protocol::GameId game = start_game(anna, bert, "bert", clock);
   const Turn turn = anna.wait_for<Turn>();
-  const std::string ping = R"({"jsonrpc":"2.0","id":900,"method":"ping","params":{"t":")" +
-                           std::string(10'000, 'x') + "\"}}\n";
+  const protocol::Ping ping{protocol::RawJson{'"' + std::string(10'000, 'x') + '"'}};
   for (int i = 0; i < 20; ++i) {
-    anna.send_bytes(ping);
+    static_cast<void>(anna.send(ping));
   }
   const auto reply = anna.call<protocol::ShotReply<Received>>(scripted_shot(turn));
   EXPECT_EQ(reply.shot.game, game);
