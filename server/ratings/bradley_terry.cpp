@@ -57,14 +57,24 @@ double log_likelihood(const Problem& problem, const Eigen::VectorXd& values) {
   return sum;
 }
 
-Eigen::VectorXd direction_of(const Problem& problem, const RatedGame& game) {
-  Eigen::VectorXd direction = Eigen::VectorXd::Zero(problem.unknowns());
-  direction[index_of(game.breaker)] = 1;
-  direction[index_of(game.other)] = -1;
+// The few unknowns that a game or a pair tells about, each with its coefficient.
+using Terms = std::vector<std::pair<Eigen::Index, double>>;
+
+Terms direction_of(const Problem& problem, const RatedGame& game) {
+  Terms direction{{index_of(game.breaker), 1}, {index_of(game.other), -1}};
   if (problem.with_break) {
-    direction[problem.players] = 1;
+    direction.emplace_back(problem.players, 1);
   }
   return direction;
+}
+
+// Adds `weight` times the square of the terms.
+void add_square(const Terms& terms, double weight, Eigen::MatrixXd& matrix) {
+  for (const auto& [row, one] : terms) {
+    for (const auto& [column, other] : terms) {
+      matrix(row, column) += weight * one * other;
+    }
+  }
 }
 
 double win_probability(const Problem& problem, const Eigen::VectorXd& values,
@@ -82,9 +92,11 @@ Derivatives derivatives(const Problem& problem, const Eigen::VectorXd& values) {
   Derivatives d{Eigen::VectorXd::Zero(n), Eigen::MatrixXd::Zero(n, n)};
   for (const RatedGame& game : problem.games) {
     const double p = win_probability(problem, values, game);
-    const Eigen::VectorXd direction = direction_of(problem, game);
-    d.gradient += game.count * (game.score - p) * direction;
-    d.information.noalias() += (game.count * p * (1 - p)) * direction * direction.transpose();
+    const Terms direction = direction_of(problem, game);
+    for (const auto& [unknown, coefficient] : direction) {
+      d.gradient[unknown] += game.count * (game.score - p) * coefficient;
+    }
+    add_square(direction, game.count * p * (1 - p), d.information);
   }
   return d;
 }
@@ -115,14 +127,23 @@ void release_means(const Problem& problem, Eigen::MatrixXd& covariance) {
 
 // The sums of the score function over each pair; nothing unless there are pairs enough.
 std::optional<Eigen::MatrixXd> pair_scores(const Problem& problem, const Eigen::VectorXd& values) {
-  std::map<std::uint64_t, Eigen::VectorXd> sums;
+  std::map<std::uint64_t, Terms> sums;
   for (const RatedGame& game : problem.games) {
     if (!game.pair || game.count != 1) {
       return std::nullopt;
     }
-    auto [sum, is_new] = sums.try_emplace(*game.pair, Eigen::VectorXd::Zero(problem.unknowns()));
-    sum->second +=
-        (game.score - win_probability(problem, values, game)) * direction_of(problem, game);
+    const double residual = game.score - win_probability(problem, values, game);
+    Terms& sum = sums[*game.pair];
+    for (const auto& [unknown, coefficient] : direction_of(problem, game)) {
+      const auto known =
+          std::find_if(sum.begin(), sum.end(),
+                       [unknown = unknown](const auto& term) { return term.first == unknown; });
+      if (known == sum.end()) {
+        sum.emplace_back(unknown, residual * coefficient);
+      } else {
+        known->second += residual * coefficient;
+      }
+    }
   }
   const auto pairs = static_cast<double>(sums.size());
   if (pairs < least_pairs_per_unknown * static_cast<double>(problem.unknowns())) {
@@ -130,7 +151,7 @@ std::optional<Eigen::MatrixXd> pair_scores(const Problem& problem, const Eigen::
   }
   Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(problem.unknowns(), problem.unknowns());
   for (const auto& [pair, sum] : sums) {
-    meat.noalias() += sum * sum.transpose();
+    add_square(sum, 1, meat);
   }
   // The usual correction for as many estimated unknowns as there are.
   return meat * (pairs / (pairs - static_cast<double>(problem.unknowns())));
