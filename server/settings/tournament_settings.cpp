@@ -14,7 +14,6 @@ namespace poolhall::settings {
 namespace {
 
 constexpr std::size_t min_entries = 2;
-constexpr std::size_t max_entries = 256;
 
 // "8-ball", "9-ball" in the file.
 struct Rules {
@@ -67,6 +66,26 @@ struct PaceKind {
   }
   static std::string write(Value value) {
     return value == MatchPace::free ? "\"free\"" : "\"rounds\"";
+  }
+};
+
+struct JoinKind {
+  using Value = Joining;
+  static std::string expected() { return R"(one of "late", "start", "never")"; }
+  static std::optional<Value> read(const Node& node) {
+    const auto word = OneOf{{"late", "start", "never"}}.read(node);
+    if (!word) {
+      return std::nullopt;
+    }
+    if (*word == "late") {
+      return Joining::late;
+    }
+    return *word == "start" ? Joining::start : Joining::never;
+  }
+  static std::string write(Value value) {
+    return value == Joining::late    ? "\"late\""
+           : value == Joining::start ? "\"start\""
+                                     : "\"never\"";
   }
 };
 
@@ -153,6 +172,8 @@ Keys<TournamentSettings> tournament_key_table() {
       "gauntlet_runners", WholeNumber{1, 255}, [](auto& s) -> auto& { return s.gauntlet_runners; });
   keys.add(
       "pace", PaceKind{}, [](auto& s) -> auto& { return s.pace; });
+  keys.add(
+      "join", JoinKind{}, [](auto& s) -> auto& { return s.join; });
   keys.add(
       "rules", Rules{}, [](auto& s) -> auto& { return s.rules; });
   keys.add(
@@ -275,10 +296,10 @@ Expected<std::vector<EntrySettings>> read_entries(const Node& root, const std::s
     if (!entry) {
       return tl::unexpected(entry.error());
     }
-    if (!names.insert(entry->name).second) {
+    if (!names.insert(name_key(entry->name)).second) {
       return refuse(file, element.at,
-                    fmt::format("entry: the name \"{}\" came twice, expected a name of its own "
-                                "for every entry",
+                    fmt::format("entry: the name \"{}\" came twice (letters' case does not "
+                                "count), expected a name of its own for every entry",
                                 entry->name));
     }
     entries.push_back(*std::move(entry));
@@ -352,6 +373,14 @@ Expected<void> check_format(const TournamentSettings& settings, const Node& root
 }
 
 }  // namespace
+
+std::string name_key(std::string_view name) {
+  std::string key{name};
+  std::transform(key.begin(), key.end(), key.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
+  return key;
+}
 
 Expected<TournamentSettings> parse_tournament(std::string_view text, const std::string& file) {
   auto root = parse_document(text, file);

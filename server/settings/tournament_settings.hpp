@@ -31,8 +31,11 @@ struct CommandEntry {
 // An agent that registers with the server by itself, under the entry's name.
 struct AgentEntry {};
 
+// Beyond this nobody enters a tournament.
+inline constexpr std::size_t max_entries = 256;
+
 struct EntrySettings {
-  std::string name;
+  std::string name;  // of the agent; two of a tournament differ by more than the case of letters
   std::variant<HouseEntry, CommandEntry, AgentEntry> player;
 };
 
@@ -53,6 +56,13 @@ enum class MatchPace : std::uint8_t {
   rounds,  // none of a round before all of the rounds before are over
 };
 
+// Until when agents may enter by themselves (tournament.join).
+enum class Joining : std::uint8_t {
+  never,
+  start,  // until the tournament begins
+  late,   // afterwards too, where the format takes late entries
+};
+
 // Of format "sprt".
 struct SequentialTest {
   double elo0 = 0;
@@ -67,6 +77,7 @@ struct TournamentSettings {
   std::uint32_t rounds = 0;  // of swiss and ladder, most matches of sprt; 0: by the format
   std::uint32_t gauntlet_runners = 1;
   MatchPace pace = MatchPace::free;
+  Joining join = Joining::late;
   SequentialTest sprt;
   rules::RuleSet rules = rules::RuleSet::eight_ball;
   std::uint32_t games_per_match = 2;
@@ -84,6 +95,9 @@ struct TournamentSettings {
   GameClock clock;
   std::vector<EntrySettings> entries;
 };
+
+// The same for names of the same agent, which differ by the case of their letters at most.
+[[nodiscard]] std::string name_key(std::string_view name);
 
 struct TournamentFile {
   TournamentSettings settings;

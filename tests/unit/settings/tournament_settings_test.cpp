@@ -86,8 +86,12 @@ TEST(TournamentSettings, AnEntryWithoutOrWithTwoPlayersIsRefusedAtItsLine) {
 TEST(TournamentSettings, TwoEntriesOfOneNameAreRefused) {
   EXPECT_EQ(
       tournament_refusal("name = \"cup\"\n" + two_entries + "[[entry]]\nhouse = \"greedy\"\n"),
-      "t.toml:6:1: entry: the name \"greedy\" came twice, expected a name of its own for "
-      "every entry");
+      "t.toml:6:1: entry: the name \"greedy\" came twice (letters' case does not count), expected "
+      "a name of its own for every entry");
+  EXPECT_THAT(
+      tournament_refusal("name = \"cup\"\n" + two_entries + "[[entry]]\nagent = \"GREEDY\"\n"),
+      HasSubstr("\"GREEDY\" came twice"))
+      << "agents' names differ by more than that";
 }
 
 TEST(TournamentSettings, ATournamentNeedsAtLeastTwoEntries) {
@@ -149,16 +153,18 @@ TEST(TournamentSettings, WrongValuesAreRefused) {
 TEST(TournamentSettings, AFormatSaysWhatItAsksOfRoundsAndEntries) {
   EXPECT_THAT(tournament_refusal("name = \"cup\"\nformat = \"swiss\"\nrounds = 3\n" + two_entries),
               HasSubstr("rounds: 3 came, expected at most 2"));
-  EXPECT_EQ(tournament_refusal("name = \"cup\"\nformat = \"swiss\"\nrounds = 2\n" + two_entries), "accepted");
-  EXPECT_THAT(
-      tournament_refusal("name = \"cup\"\nformat = \"gauntlet\"\ngauntlet_runners = 2\n" + two_entries),
-      HasSubstr("gauntlet_runners: 2 came, expected fewer"));
+  EXPECT_EQ(tournament_refusal("name = \"cup\"\nformat = \"swiss\"\nrounds = 2\n" + two_entries),
+            "accepted");
+  EXPECT_THAT(tournament_refusal("name = \"cup\"\nformat = \"gauntlet\"\ngauntlet_runners = 2\n" +
+                                 two_entries),
+              HasSubstr("gauntlet_runners: 2 came, expected fewer"));
   const std::string sprt = "name = \"cup\"\nformat = \"sprt\"\n";
   EXPECT_THAT(tournament_refusal(sprt + two_entries), HasSubstr("rounds: 0 came"));
   EXPECT_THAT(tournament_refusal(sprt + "rounds = 9\nsprt.elo0 = 40\n" + two_entries),
               HasSubstr("sprt.elo1: 30 came, expected more than sprt.elo0 = 40"));
-  EXPECT_THAT(tournament_refusal(sprt + "rounds = 9\n" + two_entries + "[[entry]]\nagent = \"Anna\"\n"),
-              HasSubstr("entry: 3 came, expected 2"));
+  EXPECT_THAT(
+      tournament_refusal(sprt + "rounds = 9\n" + two_entries + "[[entry]]\nagent = \"Anna\"\n"),
+      HasSubstr("entry: 3 came, expected 2"));
   EXPECT_EQ(tournament_refusal(sprt + "rounds = 9\n" + two_entries), "accepted");
 }
 
