@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "protocol/json_value.hpp"
 #include "server/app/exit_codes.hpp"
 #include "server/ledger/status.hpp"
 #include "server/ledger/stored_tournament.hpp"
@@ -110,6 +111,22 @@ void add_change(CLI::App& parent, int& exit_code, const std::string& change,
   add_host_options(*command, *place);
   command->callback([place, id, change, &exit_code] {
     exit_code = host_call(*place, fmt::format("/api/admin/tournaments/{}/{}", *id, change), "",
+                          "application/json");
+  });
+}
+
+void add_entry_change(CLI::App& parent, int& exit_code, const std::string& change,
+                      const std::string& what) {
+  const auto place = std::make_shared<Place>();
+  const auto id = std::make_shared<std::string>();
+  const auto agent = std::make_shared<std::string>();
+  CLI::App* command = parent.add_subcommand(change, what);
+  command->add_option("ID", *id, "The tournament's name")->required();
+  command->add_option("AGENT", *agent, "The agent's name")->required();
+  add_host_options(*command, *place);
+  command->callback([place, id, agent, change, &exit_code] {
+    exit_code = host_call(*place, fmt::format("/api/admin/tournaments/{}/{}", *id, change),
+                          fmt::format("{{\"agent\": {}}}", protocol::canonical_text({*agent})),
                           "application/json");
   });
 }
@@ -229,6 +246,10 @@ void add_tournament_calls(CLI::App& tournament, int& exit_code) {
   add_change(tournament, exit_code, "pause", "Begin no more games; those that go on end");
   add_change(tournament, exit_code, "resume", "Go on after a pause");
   add_change(tournament, exit_code, "abort", "End it; games that go on are void");
+  add_entry_change(tournament, exit_code, "enter",
+                   "Enter an agent, also while a tournament goes on whose format allows it");
+  add_entry_change(tournament, exit_code, "withdraw",
+                   "Take an agent out; games of it that go on are forfeited");
   add_list(tournament, exit_code);
   add_status(tournament, exit_code);
   add_table(tournament, exit_code, "standings", "The table");

@@ -123,9 +123,7 @@ void print_final(const net::TournamentView& view) {
   fmt::print("\n{}\n{}\n{}", tournament::standings_text(table, view.names),
              tournament::crosstable_text(cross, table, view.names),
              tournament::endings_text(table));
-  if (view.note) {
-    fmt::print("{}.\n", *view.note);
-  }
+  fmt::print("{}", view.remarks);
 }
 
 // What the network thread leaves behind; read when the server has stopped.
@@ -149,7 +147,8 @@ int report(const TournamentOutcome& outcome, const std::string& database, int se
         database, database);
     return incomplete;
   }
-  fmt::print("Games are stored in {0}.\nTo look at them again: poolhall serve --db {0}\n", database);
+  fmt::print("Games are stored in {0}.\nTo look at them again: poolhall serve --db {0}\n",
+             database);
   return server_exit == 0 ? done : failed;
 }
 
@@ -214,7 +213,8 @@ void add_run(CLI::App& tournament, int& exit_code) {
   run->add_option("FILE", arguments->file, "The tournament file (config/README.md)")->required();
   run->add_option("--db", arguments->database,
                   "The database; an unfinished tournament in it goes on. Default: a new NAME.db");
-  run->add_option("--http", arguments->http, "Serve the page at HOST:PORT meanwhile. Default: port 8080 of 127.0.0.1, or a "
+  run->add_option("--http", arguments->http,
+                  "Serve the page at HOST:PORT meanwhile. Default: port 8080 of 127.0.0.1, or a "
                   "free one");
   run->add_option("--listen", arguments->listen,
                   "Where agents connect, HOST:PORT. Default: a free port of 127.0.0.1");

@@ -12,19 +12,19 @@ std::string status_text(const StoredTournament& tournament) {
   const auto over = std::count_if(pairings.begin(), pairings.end(), [&](const auto& pairing) {
     return book.is_over(pairing.number);
   });
-  std::string text = fmt::format("Tournament {}: {}, {}, {} entries\n", tournament.record.id,
-                                 storage::name(tournament.record.status), name(book.format().kind),
-                                 book.names().size());
+  const auto left = std::count_if(book.field().begin(), book.field().end(),
+                                  [](const auto& span) { return span.until.has_value(); });
+  std::string text =
+      fmt::format("Tournament {}: {}, {}, {} entries{}\n", tournament.record.id,
+                  storage::name(tournament.record.status), name(book.format().kind),
+                  book.names().size(), left > 0 ? fmt::format(" ({} withdrawn)", left) : "");
   text +=
       fmt::format("{} of {} matches over{}, {} games scored\n", over, pairings.size(),
                   book.schedule().is_complete ? "" : " that are known so far", book.games().size());
   if (book.schedule().rounds_drawn > 0) {
     text += fmt::format("Rounds drawn: {}\n", book.schedule().rounds_drawn);
   }
-  if (const auto sprt = sprt_line(book)) {
-    text += *sprt + '\n';
-  }
-  return text;
+  return text + remarks(book);
 }
 
 storage::Expected<std::string> list_text(storage::Reader& reader) {

@@ -4,24 +4,27 @@
 
 namespace poolhall::ledger {
 
-std::optional<ScoredGame> scored_game(const storage::MatchRecord& match,
-                                      const storage::GameRecord& game) {
-  if (!game.over || !game.result || game.result->reason == rules::EndReason::void_game) {
-    return std::nullopt;
+namespace {
+
+storage::Expected<std::vector<Entered>> entered_of(storage::Reader& reader, std::string_view id) {
+  const auto entries = reader.entries(id);
+  if (!entries) {
+    return tl::unexpected(entries.error());
   }
-  const auto player_in = [&](rules::Seat seat) {
-    return game.agents[rules::index(seat)] == match.agents[0] ? 0U : 1U;
-  };
-  ScoredGame scored;
-  scored.number = game.number;
-  scored.breaker = player_in(game.breaker);
-  if (game.result->winner) {
-    scored.winner = player_in(*game.result->winner);
+  std::vector<Entered> entered;
+  for (const storage::EntryRecord& entry : *entries) {
+    const auto agent = reader.agent(entry.agent);
+    if (!agent) {
+      return tl::unexpected(agent.error());
+    }
+    if (*agent) {
+      entered.push_back({(*agent)->name, {entry.from_round, entry.until_round}});
+    }
   }
-  scored.reason = game.result->reason;
-  scored.turns = game.turns;
-  return scored;
+  return entered;
 }
+
+}  // namespace
 
 storage::Expected<std::optional<StoredTournament>> stored_tournament(storage::Reader& reader,
                                                                      std::string_view id,
@@ -48,6 +51,11 @@ storage::Expected<std::optional<StoredTournament>> stored_tournament(storage::Re
     return tl::unexpected(matches.error());
   }
   StoredTournament stored{*record, TournamentBook(*settings)};
+  const auto entered = entered_of(reader, id);
+  if (!entered) {
+    return tl::unexpected(entered.error());
+  }
+  stored.book.set_field(*entered);
   for (const storage::MatchRecord& match : *matches) {
     const auto games = reader.games_of(match.id);
     if (!games) {

@@ -26,8 +26,4 @@ inline constexpr storage::UnixMicros no_horizon{INT64_MAX};
 [[nodiscard]] storage::Expected<std::optional<StoredTournament>> stored_tournament(
     storage::Reader& reader, std::string_view id, storage::UnixMicros until = no_horizon);
 
-// Nothing: it is void or goes on.
-[[nodiscard]] std::optional<ScoredGame> scored_game(const storage::MatchRecord& match,
-                                                    const storage::GameRecord& game);
-
 }  // namespace poolhall::ledger

@@ -91,9 +91,19 @@ void write_sprt(JsonWriter& out, const ratings::SprtState& state) {
   out.key("pairs").integer(state.pairs).end_object();
 }
 
+void write_lots(JsonWriter& out, const std::vector<tournament::Lot>& lots, const Names& names) {
+  out.key("lots").begin_array();
+  for (const tournament::Lot& lot : lots) {
+    out.begin_object().key("round").integer(lot.round + 1);
+    out.key("winner").string(names[index(lot.winner)]);
+    out.key("loser").string(names[index(lot.loser)]).end_object();
+  }
+  out.end_array();
+}
+
 std::string standings_json(const std::string& id, const TournamentBook& book,
                            const Standings& table) {
-  const Names names = book.names();
+  const Names& names = book.names();
   JsonWriter out;
   out.begin_object().key("tournament").string(id);
   out.key("format").string(name(book.format().kind));
@@ -113,6 +123,9 @@ std::string standings_json(const std::string& id, const TournamentBook& book,
   out.end_object();
   if (book.schedule().sprt) {
     write_sprt(out, *book.schedule().sprt);
+  }
+  if (!book.schedule().lots.empty()) {
+    write_lots(out, book.schedule().lots, names);
   }
   out.end_object();
   return std::move(out).text() + '\n';
@@ -180,11 +193,14 @@ std::optional<TableForm> table_form(std::string_view name) {
   return name == "json" ? std::optional(TableForm::json) : std::nullopt;
 }
 
+Standings standings(const TournamentBook& book) {
+  return tournament::standings(book.names().size(), book.games(), book.table_rules());
+}
+
 std::string table_text(const std::string& id, const TournamentBook& book, Table table,
                        TableForm form) {
-  const Names names = book.names();
-  const auto games = book.games();
-  const Standings standings = tournament::standings(names.size(), games, book.table_rules());
+  const Names& names = book.names();
+  const Standings standings = ledger::standings(book);
   if (table == Table::standings) {
     switch (form) {
       case TableForm::text:
@@ -194,11 +210,10 @@ std::string table_text(const std::string& id, const TournamentBook& book, Table 
       case TableForm::json:
         return standings_json(id, book, standings);
     }
-    const auto sprt = sprt_line(book);
-    return tournament::standings_text(standings, names) + (sprt ? *sprt + '\n' : "") +
+    return tournament::standings_text(standings, names) + remarks(book) +
            tournament::endings_text(standings);
   }
-  const Crosstable cross = tournament::crosstable(names.size(), games);
+  const Crosstable cross = tournament::crosstable(names.size(), book.games());
   switch (form) {
     case TableForm::text:
       break;
@@ -214,10 +229,7 @@ std::optional<std::string> trf_text(const std::string& id, const TournamentBook&
   if (book.format().kind != tournament::FormatKind::swiss) {
     return std::nullopt;
   }
-  const std::uint32_t rounds = book.format().rounds > 0
-                                   ? book.format().rounds
-                                   : tournament::swiss_rounds_of(book.names().size());
-  return tournament::trf16({id, rounds}, book.names(), book.schedule());
+  return tournament::trf16({id, book.schedule().rounds}, book.names(), book.schedule());
 }
 
 }  // namespace poolhall::ledger

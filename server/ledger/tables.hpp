@@ -16,6 +16,9 @@ enum class TableForm : std::uint8_t { text, csv, json };
 [[nodiscard]] std::optional<Table> table(std::string_view name);
 [[nodiscard]] std::optional<TableForm> table_form(std::string_view name);
 
+// The table that every form shows: on the page, as text, CSV and JSON.
+[[nodiscard]] tournament::Standings standings(const TournamentBook& book);
+
 // Ends with a line's end.
 [[nodiscard]] std::string table_text(const std::string& id, const TournamentBook& book, Table table,
                                      TableForm form);

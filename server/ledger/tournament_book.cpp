@@ -14,6 +14,7 @@ tournament::FormatSettings format_of(const settings::TournamentSettings& setting
   format.kind = tournament::format_kind(settings.format).value_or(format.kind);
   format.rounds = settings.rounds;
   format.runners = settings.gauntlet_runners;
+  format.seed = settings.seed.value_or(0);
   format.sprt = {settings.sprt.elo0, settings.sprt.elo1, settings.sprt.alpha, settings.sprt.beta};
   return format;
 }
@@ -28,16 +29,46 @@ std::vector<tournament::TieBreak> tie_breaks_of(const settings::TournamentSettin
   return tie_breaks;
 }
 
-// A forfeit before anything was played is one stored turn, its own.
-bool was_played(const ScoredGame& game) {
-  return game.reason != rules::EndReason::forfeit || game.turns > 1;
-}
-
 }  // namespace
 
 TournamentBook::TournamentBook(const settings::TournamentSettings& settings)
-    : settings_(settings), format_(format_of(settings)), field_(settings.entries.size()) {
+    : settings_(settings), format_(format_of(settings)) {
+  set_field({});
   plan();
+}
+
+void TournamentBook::set_field(const std::vector<Entered>& entered) {
+  std::map<std::string, tournament::EntrySpan> spans;
+  for (const Entered& entry : entered) {
+    spans[settings::name_key(entry.name)] = entry.span;
+  }
+  tournament::Names names;
+  std::vector<tournament::EntrySpan> field;
+  const auto add = [&](const std::string& name) {
+    const auto found = spans.extract(settings::name_key(name));
+    const tournament::EntrySpan span = found ? found.mapped() : tournament::EntrySpan{};
+    if (span.until != 0U) {
+      names.push_back(name);
+      field.push_back(span);
+    }
+  };
+  for (const settings::EntrySettings& entry : settings_.entries) {
+    add(entry.name);
+  }
+  for (const Entered& entry : entered) {
+    if (spans.contains(settings::name_key(entry.name))) {
+      add(entry.name);
+    }
+  }
+  const bool only_grows = names.size() >= names_.size() &&
+                          std::equal(names_.begin(), names_.end(), names.begin()) &&
+                          std::all_of(field.begin() + static_cast<std::ptrdiff_t>(names_.size()),
+                                      field.end(), [](const auto& span) { return span.from > 0; });
+  if (!only_grows) {
+    schedule_ = {};  // rounds that were drawn for others
+  }
+  names_ = std::move(names);
+  field_ = std::move(field);
 }
 
 void TournamentBook::take(std::uint32_t pairing, const std::vector<ScoredGame>& games,
@@ -57,10 +88,12 @@ bool TournamentBook::add_game(std::uint32_t pairing, const ScoredGame& game) {
 
 void TournamentBook::end(std::uint32_t pairing) {
   tournament::MatchResult result;
-  result.was_played = false;
   for (const auto& [number, game] : games_[pairing]) {
-    result.first_scores.push_back(!game.winner ? 0.5 : *game.winner == 0 ? 1 : 0);
-    result.was_played = result.was_played || was_played(game);
+    result.games.push_back({number,
+                            !game.winner        ? 0.5
+                            : *game.winner == 0 ? 1.0
+                                                : 0.0,
+                            tournament::was_played(game.reason, game.turns)});
   }
   happened_.begun.insert(pairing);
   happened_.results[pairing] = std::move(result);
@@ -112,27 +145,32 @@ tournament::TableRules TournamentBook::table_rules() const {
   return tournament::table_rules(format_, schedule_, happened_, tie_breaks_of(settings_));
 }
 
-tournament::Names TournamentBook::names() const {
-  tournament::Names names;
-  for (const settings::EntrySettings& entry : settings_.entries) {
-    names.push_back(entry.name);
-  }
-  return names;
+namespace {
+
+std::string sprt_line(const ratings::SprtSettings& test, const ratings::SprtState& state) {
+  const std::string_view verdict = state.verdict == ratings::SprtVerdict::h1   ? "H1 accepted"
+                                   : state.verdict == ratings::SprtVerdict::h0 ? "H0 accepted"
+                                                                               : "undecided";
+  return fmt::format(
+      "SPRT of {:+g} against {:+g} Elo: {} after {} pairs, LLR {:.2f} in [{:.2f}, {:.2f}].\n",
+      test.elo0, test.elo1, verdict, state.pairs, state.log_likelihood_ratio, state.lower,
+      state.upper);
 }
 
-std::optional<std::string> sprt_line(const TournamentBook& book) {
-  const auto& state = book.schedule().sprt;
-  if (!state) {
-    return std::nullopt;
+}  // namespace
+
+std::string remarks(const TournamentBook& book) {
+  std::string text;
+  if (const auto& state = book.schedule().sprt) {
+    text += sprt_line(book.format().sprt, *state);
   }
-  const auto& test = book.format().sprt;
-  const std::string_view verdict = state->verdict == ratings::SprtVerdict::h1   ? "H1 accepted"
-                                   : state->verdict == ratings::SprtVerdict::h0 ? "H0 accepted"
-                                                                                : "undecided";
-  return fmt::format(
-      "SPRT of {:+g} against {:+g} Elo: {} after {} pairs, LLR {:.2f} in [{:.2f}, {:.2f}]",
-      test.elo0, test.elo1, verdict, state->pairs, state->log_likelihood_ratio, state->lower,
-      state->upper);
+  for (const tournament::Lot& lot : book.schedule().lots) {
+    text += fmt::format(
+        "Round {}: level after the matches that were to be played, a lot sent {} on "
+        "and put {} out.\n",
+        lot.round + 1, book.names()[index(lot.winner)], book.names()[index(lot.loser)]);
+  }
+  return text;
 }
 
 }  // namespace poolhall::ledger

@@ -14,7 +14,7 @@
 #include <string>
 #include <vector>
 
-#include "rules/game_state.hpp"
+#include "server/ledger/scored_game.hpp"
 #include "server/settings/tournament_settings.hpp"
 #include "server/tournament/format.hpp"
 #include "server/tournament/played_game.hpp"
@@ -22,13 +22,10 @@
 
 namespace poolhall::ledger {
 
-// A game of a match that counts: neither void nor going on. Players are 0, Pairing::first, and 1.
-struct ScoredGame {
-  std::uint32_t number = 0;  // in its match, from 0
-  std::uint32_t breaker = 0;
-  std::optional<std::uint32_t> winner{};  // unset: drawn
-  rules::EndReason reason = rules::EndReason::conceded;
-  std::uint32_t turns = 0;  // stored ones
+// Who has entered, in the order of entering.
+struct Entered {
+  std::string name;
+  tournament::EntrySpan span{};  // until round 0: has left before the tournament began
 };
 
 enum class MatchStage : std::uint8_t { going_on, over };
@@ -42,6 +39,9 @@ class TournamentBook {
   // False: it is there already.
   bool add_game(std::uint32_t pairing, const ScoredGame& game);
   void begin(std::uint32_t pairing) { happened_.begun.insert(pairing); }
+  // Who plays: the entries of the file in its order, then who entered by themselves. Who has left
+  // before the tournament began is not among them. Until this is called they are the file's.
+  void set_field(const std::vector<Entered>& entered);
   void end(std::uint32_t pairing);
   // The schedule as the results now make it. Swiss rounds that were drawn are not drawn again.
   void plan();
@@ -55,7 +55,8 @@ class TournamentBook {
   // Scored games of the schedule, in its order.
   [[nodiscard]] std::vector<tournament::PlayedGame> games() const;
   [[nodiscard]] tournament::TableRules table_rules() const;
-  [[nodiscard]] tournament::Names names() const;
+  [[nodiscard]] const tournament::Names& names() const { return names_; }
+  [[nodiscard]] const std::vector<tournament::EntrySpan>& field() const { return field_; }
   [[nodiscard]] const tournament::FormatSettings& format() const { return format_; }
   [[nodiscard]] const settings::TournamentSettings& settings() const { return settings_; }
 
@@ -64,13 +65,14 @@ class TournamentBook {
 
   settings::TournamentSettings settings_;
   tournament::FormatSettings format_;
-  std::vector<tournament::EntrySpan> field_;
-  std::map<std::uint32_t, Games> games_;  // by pairing
+  tournament::Names names_;
+  std::vector<tournament::EntrySpan> field_;  // by name
+  std::map<std::uint32_t, Games> games_;      // by pairing
   tournament::Happened happened_;
   tournament::Schedule schedule_;
 };
 
-// How an SPRT stands, as one line for people; nothing for other formats.
-[[nodiscard]] std::optional<std::string> sprt_line(const TournamentBook& book);
+// What the format has to say to people, a line each: how an SPRT stands, where a lot decided.
+[[nodiscard]] std::string remarks(const TournamentBook& book);
 
 }  // namespace poolhall::ledger

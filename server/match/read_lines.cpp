@@ -197,7 +197,9 @@ storage::EntryRecord read_entry(const JsonNode& node, const std::string& tournam
   entry.tournament = tournament;
   entry.agent = read_id<storage::AgentId>(node.at("agent"));
   entry.place = node.at("place").integer<std::uint32_t>();
-  entry.withdrawn = node.at("withdrawn").boolean();
+  entry.from_round = node.at("from_round").integer<std::uint32_t>();
+  if (const auto until = node.nullable("until_round"))
+    entry.until_round = until->integer<std::uint32_t>();
   entry.house_bot = read_optional_text(node, "house_bot");
   for (const JsonNode& option : node.at("house_options").elements())
     entry.house_options.push_back(option.string());

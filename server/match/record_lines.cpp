@@ -92,7 +92,11 @@ void write_terms(JsonWriter& out, const storage::TermsRecord& terms, Secrets sec
 
 void write_entry(JsonWriter& out, const storage::EntryRecord& entry) {
   out.begin_object().key("agent").integer(number(entry.agent)).key("place").integer(entry.place);
-  out.key("withdrawn").boolean(entry.withdrawn);
+  out.key("from_round").integer(entry.from_round).key("until_round");
+  if (entry.until_round)
+    out.integer(*entry.until_round);
+  else
+    out.null();
   write_text(out, "house_bot", entry.house_bot);
   out.key("house_options").begin_array();
   for (const std::string& option : entry.house_options)

@@ -43,7 +43,10 @@ unsigned status_of(protocol::ErrorCode code) {
   switch (code) {
     case protocol::ErrorCode::bad_name:
       return 400;
+    case protocol::ErrorCode::unknown_agent:
+      return 404;
     case protocol::ErrorCode::name_taken:
+    case protocol::ErrorCode::tournament_closed:
       return 409;
     default:
       return 503;
@@ -86,6 +89,37 @@ void void_game(Arena& arena, Archive& archive, std::int64_t game, const Then& th
       });
 }
 
+struct EntryOf {
+  std::string tournament;
+  std::string agent;
+};
+
+void change_entry(Tournaments& tournaments, const EntryOf& entry,
+                  web::HostCalls::EntryChange change, const Then& then) {
+  if (!tournaments.wire_id(entry.tournament)) {
+    then(web::refusal(404, "not_found",
+                      fmt::format("there is no tournament \"{}\"", entry.tournament)));
+    return;
+  }
+  const bool enters = change == web::HostCalls::EntryChange::enter;
+  const auto done = [entry, enters, then](const protocol::Expected<void>& stored) {
+    if (!stored) {
+      then(web::refusal(status_of(stored.error().code), protocol::name(stored.error().code),
+                        stored.error().reason));
+      return;
+    }
+    JsonWriter out;
+    out.begin_object().key("tournament").string(entry.tournament).key("agent").string(entry.agent);
+    out.key("status").string(enters ? "entered" : "withdrawn").end_object();
+    then({200, "application/json", std::move(out).text()});
+  };
+  if (enters) {
+    tournaments.host_enters(entry.tournament, entry.agent, done);
+  } else {
+    tournaments.host_withdraws(entry.tournament, entry.agent, done);
+  }
+}
+
 TournamentDesk::Result<TournamentCard> changed(TournamentDesk& desk, const std::string& id,
                                                web::HostCalls::Change change) {
   using Change = web::HostCalls::Change;
@@ -115,6 +149,10 @@ web::HostCalls host_calls(Arena& arena, Archive& archive, TournamentDesk& desk) 
   calls.change_tournament = [&desk, when_stored](const std::string& id,
                                                  web::HostCalls::Change change, const Then& then) {
     when_stored(page_of(200, changed(desk, id, change)), then);
+  };
+  calls.change_entry = [&arena](const std::string& id, web::HostCalls::EntryChange change,
+                                const std::string& agent, const Then& then) {
+    change_entry(arena.tournaments(), {id, agent}, change, then);
   };
   calls.add_agent = [&arena](const std::string& name, const Then& then) {
     arena.add_agent(name, [name, then](const protocol::Expected<std::string>& token) {

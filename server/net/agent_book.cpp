@@ -3,17 +3,11 @@
 #include <algorithm>
 #include <cstring>
 
+#include "server/settings/tournament_settings.hpp"
+
 namespace poolhall::net {
 
 namespace {
-
-std::string lower(std::string_view name) {
-  std::string text{name};
-  std::transform(text.begin(), text.end(), text.begin(), [](char c) {
-    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  });
-  return text;
-}
 
 std::uint64_t prefix(const TokenHash& hash) {
   std::uint64_t value = 0;
@@ -51,7 +45,7 @@ Agent& AgentBook::add(storage::AgentRecord record) {
   agent->record = std::move(record);
   Agent& added = *agent;
   by_id_.emplace(storage::number(added.id()), std::move(agent));
-  by_name_.emplace(lower(added.record.name), &added);
+  by_name_.emplace(settings::name_key(added.record.name), &added);
   by_token_.emplace(prefix(added.record.token_hash), &added);
   return added;
 }
@@ -62,7 +56,7 @@ void AgentBook::remove(storage::AgentId id) {
     return;
   }
   Agent* const agent = found->second.get();
-  by_name_.erase(lower(agent->record.name));
+  by_name_.erase(settings::name_key(agent->record.name));
   std::erase_if(by_token_, [agent](const auto& entry) { return entry.second == agent; });
   by_id_.erase(found);
 }
@@ -85,7 +79,7 @@ Agent* AgentBook::find(storage::AgentId id) {
 }
 
 Agent* AgentBook::named(std::string_view name) {
-  const auto found = by_name_.find(lower(name));
+  const auto found = by_name_.find(settings::name_key(name));
   return found == by_name_.end() ? nullptr : found->second;
 }
 

@@ -48,6 +48,9 @@ Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
       matches_(services_, ids_,
                {[this](std::shared_ptr<LiveGame> game) { launch(std::move(game)); },
                 [this](const std::string& id) { return tournaments_.wire_id(id); },
+                [this](const std::string& id, storage::AgentId agent) {
+                  return tournaments_.has_left(id, agent);
+                },
                 [this](const storage::MatchRecord& match, const GameOutcome& outcome) {
                   tournaments_.game_over(match, outcome);
                 },
@@ -60,12 +63,14 @@ Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
                       match, games,
                       match.tournament ? tournaments_.wire_id(*match.tournament) : std::nullopt);
                 }}),
-      tournaments_(
-          services_, matches_, untold_, ids_,
-          [this](const std::string& name, const HousePlayer& player) -> Agent& {
-            return house_agent(name, player);
-          },
-          [this](const std::string& name) -> Agent& { return stand_in(name); }),
+      tournaments_(services_, matches_, untold_, ids_,
+                   {[this](const std::string& name, const HousePlayer& player) -> Agent& {
+                      return house_agent(name, player);
+                    },
+                    [this](const std::string& name) -> Agent& { return stand_in(name); },
+                    [this](const std::string& tournament, storage::AgentId loser) {
+                      forfeit_games_of(tournament, loser);
+                    }}),
       challenges_(services_, matches_,
                   {[this](const std::string& bot) { return house_opponent(bot); },
                    [this](storage::AgentId agent) {
@@ -371,6 +376,16 @@ void Arena::call_off_games_of(const std::string& tournament) {
   for (const auto& [id, game] : games) {
     if (matches_.tournament_of(game->record().match) == tournament) {
       game->call_off();
+    }
+  }
+}
+
+void Arena::forfeit_games_of(const std::string& tournament, storage::AgentId loser) {
+  const auto games = games_;
+  for (const auto& [id, game] : games) {
+    const auto seat = game->seat_of(loser);
+    if (seat && matches_.tournament_of(game->record().match) == tournament) {
+      game->leave(*seat);
     }
   }
 }

@@ -83,6 +83,7 @@ class Arena final : public Lobby {
 
   [[nodiscard]] Visitors& visitors() { return visitors_; }
   [[nodiscard]] MatchHost& host() { return tournaments_; }
+  [[nodiscard]] Tournaments& tournaments() { return tournaments_; }
   [[nodiscard]] ArenaFigures figures() const;
   void for_each_game(const std::function<void(const LiveGame&)>& visit) const;
   [[nodiscard]] const LiveGame* find_game(protocol::GameId game) const { return live_game(game); }
@@ -138,6 +139,7 @@ class Arena final : public Lobby {
   // Games.
   void launch(std::shared_ptr<LiveGame> game);
   void game_over(LiveGame& game);
+  void forfeit_games_of(const std::string& tournament, storage::AgentId loser);
   void look_whether_quiet();
   void tell_everyone();
 

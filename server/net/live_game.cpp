@@ -78,6 +78,10 @@ void LiveGame::go_on() {
     end_as_void();
     return;
   }
+  if (left_ && !in_flight() && game_.phase() != Phase::over) {
+    forfeit(*left_);
+    return;
+  }
   if (game_.phase() == Phase::due && !halted_ && (!awaiting_agents_ || all_needed_are_in())) {
     awaiting_agents_ = false;
     arrival_deadline_.cancel();
@@ -329,7 +333,11 @@ void LiveGame::not_written(const storage::StorageError& error) {
     return;
   }
   watch_flag();
-  take_waiting();
+  if (left_) {
+    go_on();
+  } else {
+    take_waiting();
+  }
 }
 
 void LiveGame::take_waiting() {
@@ -388,6 +396,11 @@ void answer_from_row(const storage::TurnRecord& row, const Asker& asker, Seat se
 void LiveGame::forfeit(Seat loser) {
   const match::Arrival now{match::rounded_down(steady_clock::now()), {}, storage::unix_now()};
   act(game_.forfeit(loser, now), GameRequest{});
+}
+
+void LiveGame::leave(Seat loser) {
+  left_ = left_.value_or(loser);
+  go_on();
 }
 
 void LiveGame::call_off() {

@@ -79,7 +79,8 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   void agent_came(Seat seat);
   // Whether this is the answer to the turn that waits for it.
   [[nodiscard]] bool is_awaited(Seat seat, const protocol::Request& request) const;
-  void forfeit(Seat loser);
+  // Loses it, after what is in flight.
+  void leave(Seat loser);
   // Ends it as void, after what is in flight.
   void call_off();
   // Before begin().
@@ -118,6 +119,7 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   void look_up(std::uint32_t turn, const GameRequest& request) const;
   void go_on();
   void end_as_void();
+  void forfeit(Seat loser);
   void take_waiting();
   void await_agents();
   void start_waited_enough();
@@ -140,6 +142,7 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   bool awaiting_agents_ = true;  // before the first turn of this run of the server
   bool halted_ = false;
   bool called_off_ = false;
+  std::optional<Seat> left_{};  // who has left the tournament, the first of the two
   bool suspended_ = false;
   bool reveals_over_ = false;  // who has not revealed by now contributes nothing
   std::uint32_t reveals_being_stored_ = 0;

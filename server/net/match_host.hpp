@@ -23,6 +23,7 @@
 #include "protocol/ids.hpp"
 #include "protocol/messages.hpp"
 #include "rules/game_state.hpp"
+#include "server/ledger/scored_game.hpp"
 #include "server/storage/records.hpp"
 
 namespace poolhall::net {
@@ -59,14 +60,7 @@ struct MatchOrder {
   storage::Mirror mirrored = storage::Mirror::none;
 };
 
-struct GameOutcome {
-  GameId game{};
-  std::uint32_t number = 0;               // 0-based in its match; a replayed void game keeps it
-  std::uint32_t breaker = 0;              // index into MatchOrder::agents
-  std::optional<std::uint32_t> winner{};  // index into MatchOrder::agents; unset: drawn
-  rules::EndReason reason = rules::EndReason::conceded;
-  std::uint32_t turns = 0;  // stored ones: shots, decisions, lost turns, the end
-};
+using GameOutcome = ledger::ScoredGame;  // players are indices into MatchOrder::agents
 
 struct MatchOutcome {
   std::string tournament;
@@ -83,6 +77,15 @@ struct TournamentEntry {
   // Played by a process of somebody's that the server starts in the same way as a house bot, by
   // /bin/sh -c with POOLHALL_SERVER (HOST:PORT) and POOLHALL_TOKEN in its environment.
   std::optional<std::string> command{};
+  std::uint32_t from_round = 0;  // later for late entries
+  // The first round without it, once it has left; 0: before the tournament began.
+  std::optional<std::uint32_t> until_round{};
+};
+
+// What a tournament that goes on makes of those who come and go now.
+struct Intake {
+  std::optional<std::uint32_t> late_round{};  // the first round of a late entry; none: nobody may
+  std::uint32_t next_round = 1;               // the first round without who leaves
 };
 
 struct TournamentCard {
@@ -107,11 +110,14 @@ class MatchHost {
 
   // Enters an agent; makes a house bot's agent known if need be.
   virtual void enter(const TournamentEntry& entry) = 0;
-  // In the order of entering, those that joined over the wire included.
+  // In the order of entering, those that joined over the wire and those that have left included.
   [[nodiscard]] virtual std::vector<TournamentEntry> entries(
       const std::string& tournament) const = 0;
+  virtual void set_intake(const std::string& tournament, const Intake& intake) = 0;
 
   virtual void start_match(const MatchOrder& order) = 0;
+  // Takes an order back whose match has not begun.
+  virtual void cancel_match(const std::string& tournament, std::uint32_t pairing) = 0;
   [[nodiscard]] virtual std::vector<MatchOutcome> finished_matches(
       const std::string& tournament) const = 0;
   // Those that have begun and are not over, with the games scored so far.
@@ -123,6 +129,9 @@ class MatchHost {
   // After each game, void ones not included; for progress displays.
   virtual void on_game_over(
       std::function<void(const MatchOrder&, const GameOutcome&)> callback) = 0;
+
+  // An agent has come or left while the tournament goes on. Games of who has left are forfeited.
+  virtual void on_entries_changed(std::function<void(const std::string& tournament)> callback) = 0;
 
   // Tells every agent that entered: tournament.over. The status is set_status's business.
   virtual void announce_end(const std::string& tournament,

@@ -119,30 +119,10 @@ void Matches::go_on(MatchId match) {
   }
 }
 
-std::optional<GameOutcome> Matches::outcome_of(const storage::MatchRecord& match,
-                                               const storage::GameRecord& game) {
-  if (!game.over || !game.result || game.result->reason == rules::EndReason::void_game) {
-    return std::nullopt;
-  }
-  const auto agent_in = [&](Seat seat) {
-    return game.agents[rules::index(seat)] == match.agents[0] ? 0U : 1U;
-  };
-  GameOutcome outcome;
-  outcome.game = game.id;
-  outcome.number = game.number;
-  outcome.breaker = agent_in(game.breaker);
-  if (game.result->winner) {
-    outcome.winner = agent_in(*game.result->winner);
-  }
-  outcome.reason = game.result->reason;
-  outcome.turns = game.turns;
-  return outcome;
-}
-
 std::vector<GameOutcome> Matches::outcomes(const LiveMatch& match) const {
   std::vector<GameOutcome> scored;
   for (const storage::GameRecord& game : match.games) {
-    if (const auto outcome = outcome_of(match.record, game)) {
+    if (const auto outcome = ledger::scored_game(match.record, game)) {
       scored.push_back(*outcome);
     }
   }
@@ -156,7 +136,7 @@ std::optional<std::uint32_t> Matches::next_number(const LiveMatch& match) const 
     const std::uint32_t attempts = attempts_at(match.games, number);
     const bool scored =
         std::any_of(match.games.begin(), match.games.end(), [&](const storage::GameRecord& game) {
-          return game.number == number && outcome_of(match.record, game);
+          return game.number == number && ledger::scored_game(match.record, game);
         });
     if (!scored && attempts < attempts_bound) {
       return number;
@@ -275,6 +255,12 @@ void Matches::launch(const storage::UnfinishedGame& unfinished, LiveMatch& match
   const auto live = std::make_shared<LiveGame>(std::move(*game), card, services_, start);
   join_pair(match, live);
   outside_.launch(live);
+  for (const Seat seat : both_seats) {
+    if (record.tournament &&
+        outside_.has_left(*record.tournament, live->record().agents[rules::index(seat)])) {
+      live->leave(seat);
+    }
+  }
 }
 
 void Matches::join_pair(LiveMatch& match, const std::shared_ptr<LiveGame>& game) {
@@ -306,7 +292,7 @@ void Matches::game_over(const LiveGame& live) {
   LiveMatch& match = found->second;
   --match.going_on;
   match.games.push_back(game);
-  if (const auto outcome = outcome_of(match.record, game)) {
+  if (const auto outcome = ledger::scored_game(match.record, game)) {
     outside_.on_game_over(match.record, *outcome);
   }
   begin_next(match);

@@ -39,6 +39,7 @@ class Matches {
   struct Outside {
     std::function<void(std::shared_ptr<LiveGame>)> launch;
     std::function<std::optional<protocol::TournamentId>(const std::string&)> wire_id;
+    std::function<bool(const std::string& tournament, storage::AgentId)> has_left;
     std::function<void(const storage::MatchRecord&, const GameOutcome&)> on_game_over;
     std::function<void(const storage::MatchRecord&, const std::vector<GameOutcome>&)> on_match_over;
     // Its end is stored: its agents are to be told, with all its games, void ones too.
@@ -69,10 +70,6 @@ class Matches {
   [[nodiscard]] std::optional<std::string> tournament_of(MatchId match) const;
   // Restored matches without a tournament: nobody else would start their next game.
   [[nodiscard]] std::vector<MatchId> challenges() const;
-
-  // A scored game as tournaments count it; nothing if it is void or not over.
-  [[nodiscard]] static std::optional<GameOutcome> outcome_of(const storage::MatchRecord& match,
-                                                             const storage::GameRecord& game);
 
  private:
   struct LiveMatch {

@@ -31,6 +31,11 @@ class TournamentDesk::Share final : public MatchHost {
       on_match_over_(outcome);
     }
   }
+  void hear_of_entries(const std::string& tournament) const {
+    if (on_entries_changed_) {
+      on_entries_changed_(tournament);
+    }
+  }
   void hear(const MatchOrder& order, const GameOutcome& outcome) const {
     if (on_game_over_) {
       on_game_over_(order, outcome);
@@ -41,7 +46,9 @@ class TournamentDesk::Share final : public MatchHost {
     return host_.open_tournament(card);
   }
   void set_status(const std::string& tournament, TournamentStatus status) override {
-    host_.set_status(tournament, status);
+    if (!held_ || status != TournamentStatus::running) {
+      host_.set_status(tournament, status);
+    }
   }
   [[nodiscard]] std::vector<TournamentCard> tournaments() const override {
     return host_.tournaments();
@@ -57,6 +64,14 @@ class TournamentDesk::Share final : public MatchHost {
       host_.start_match(order);
     }
   }
+  void set_intake(const std::string& tournament, const Intake& intake) override {
+    host_.set_intake(tournament, intake);
+  }
+  void cancel_match(const std::string& tournament, std::uint32_t pairing) override {
+    std::erase_if(waiting_,
+                  [pairing](const MatchOrder& order) { return order.pairing == pairing; });
+    host_.cancel_match(tournament, pairing);
+  }
   [[nodiscard]] std::vector<MatchOutcome> finished_matches(
       const std::string& tournament) const override {
     return host_.finished_matches(tournament);
@@ -71,6 +86,9 @@ class TournamentDesk::Share final : public MatchHost {
   void on_game_over(std::function<void(const MatchOrder&, const GameOutcome&)> callback) override {
     on_game_over_ = std::move(callback);
   }
+  void on_entries_changed(std::function<void(const std::string&)> callback) override {
+    on_entries_changed_ = std::move(callback);
+  }
   void announce_end(const std::string& tournament,
                     const std::vector<protocol::StandingRow>& standings) override {
     host_.announce_end(tournament, standings);
@@ -82,6 +100,7 @@ class TournamentDesk::Share final : public MatchHost {
   std::vector<MatchOrder> waiting_;
   std::function<void(const MatchOutcome&)> on_match_over_;
   std::function<void(const MatchOrder&, const GameOutcome&)> on_game_over_;
+  std::function<void(const std::string&)> on_entries_changed_;
 };
 
 namespace {
@@ -113,13 +132,19 @@ void TournamentDesk::take_up() {
       found->second.share->hear(order, outcome);
     }
   });
+  host_.on_entries_changed([this](const std::string& tournament) {
+    if (const auto found = running_.find(tournament); found != running_.end()) {
+      found->second.share->hear_of_entries(tournament);
+    }
+  });
   for (const TournamentCard& card : host_.tournaments()) {
-    if (card.status == TournamentStatus::paused) {
-      matches_.set_pace(card.id, Matches::Pace::held);
+    if (card.status == TournamentStatus::open) {
+      enter_all(card);  // who has not registered yet
     } else if (card.status == TournamentStatus::aborted) {
       matches_.set_pace(card.id, Matches::Pace::ended);
       call_off_(card.id);
-    } else if (card.status == TournamentStatus::running) {
+    } else if (card.status == TournamentStatus::running ||
+               card.status == TournamentStatus::paused) {
       if (const auto driven = drive(card); !driven) {
         spdlog::error("tournament {} does not go on: {}", card.id, driven.error().reason);
       }
@@ -145,7 +170,18 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::create(const std::string&
   // The racks' seed is part of what is stored, so that a restart plays the same racks.
   const std::string stored =
       settings->seed ? text : fmt::format("seed = {}\n{}", random_seed(), text);
-  return host_.open_tournament({settings->name, settings->name, stored, TournamentStatus::open});
+  const TournamentCard card =
+      host_.open_tournament({settings->name, settings->name, stored, TournamentStatus::open});
+  enter_all(card);
+  return card;
+}
+
+void TournamentDesk::enter_all(const TournamentCard& card) {
+  const auto settings = settings::parse_tournament(card.settings, card.id);
+  for (const settings::EntrySettings& entry :
+       settings ? settings->entries : std::vector<settings::EntrySettings>{}) {
+    host_.enter(entry_of(card.id, entry));
+  }
 }
 
 TournamentDesk::Result<TournamentCard> TournamentDesk::card_of(const std::string& id) const {
@@ -164,6 +200,10 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::drive(const TournamentCar
   }
   Running& running = running_[card.id];
   running.share = std::make_unique<Share>(host_);
+  if (card.status == TournamentStatus::paused) {
+    running.share->hold();
+    matches_.set_pace(card.id, Matches::Pace::held);
+  }
   running.driver = std::make_unique<TournamentDriver>(
       settings::TournamentFile{std::move(*settings), card.settings}, *running.share, now_);
   if (const auto begun = running.driver->begin(random_seed()); !begun) {
@@ -186,6 +226,14 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::start(const std::string& 
   }
   if (card->status != TournamentStatus::open) {
     return wrong_status(*card, "an open one");
+  }
+  const auto entries = host_.entries(id);
+  const auto there = std::count_if(entries.begin(), entries.end(),
+                                   [](const auto& entry) { return !entry.until_round; });
+  if (there < 2) {
+    return refused(Kind::conflict, fmt::format("tournament \"{}\" has {} entries that have not "
+                                               "left, expected 2 at least",
+                                               id, there));
   }
   return drive(*card);
 }
@@ -215,11 +263,9 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::resume(const std::string&
   }
   const auto running = in_status(id, TournamentStatus::running);
   matches_.set_pace(id, Matches::Pace::steady);
-  const auto found = running_.find(id);
-  if (found == running_.end()) {
-    return drive(*running);  // it was paused when the server stopped
+  if (const auto found = running_.find(id); found != running_.end()) {
+    found->second.share->go_on();
   }
-  found->second.share->go_on();
   return running;
 }
 

@@ -63,6 +63,7 @@ class TournamentDesk {
   };
 
   [[nodiscard]] Result<TournamentCard> card_of(const std::string& id) const;
+  void enter_all(const TournamentCard& card);
   [[nodiscard]] Result<TournamentCard> drive(const TournamentCard& card);
   [[nodiscard]] Result<TournamentCard> in_status(const std::string& id, TournamentStatus status);
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <set>
 #include <variant>
 
 #include <fmt/format.h>
@@ -41,6 +42,8 @@ storage::Mirror mirror_of(settings::MirroredGames mirrored) {
   return storage::Mirror::none;
 }
 
+}  // namespace
+
 TournamentEntry entry_of(const std::string& tournament, const settings::EntrySettings& settings) {
   TournamentEntry entry;
   entry.tournament = tournament;
@@ -54,20 +57,11 @@ TournamentEntry entry_of(const std::string& tournament, const settings::EntrySet
   return entry;
 }
 
+namespace {
+
 tournament::Pace pace_of(const settings::TournamentSettings& settings) {
   return settings.pace == settings::MatchPace::rounds ? tournament::Pace::by_rounds
                                                       : tournament::Pace::free_running;
-}
-
-ledger::ScoredGame scored(const GameOutcome& game) {
-  return {game.number, game.breaker, game.winner, game.reason, game.turns};
-}
-
-std::vector<ledger::ScoredGame> scored(const std::vector<GameOutcome>& games) {
-  std::vector<ledger::ScoredGame> list;
-  std::transform(games.begin(), games.end(), std::back_inserter(list),
-                 [](const GameOutcome& game) { return scored(game); });
-  return list;
 }
 
 // The file as it is stored: with the seed that was drawn for it, if it has none.
@@ -123,7 +117,13 @@ tl::expected<void, std::string> TournamentDriver::begin(std::uint64_t seed) {
       match_over(outcome);
     }
   });
+  host_.on_entries_changed([this](const std::string& tournament) {
+    if (tournament == file_.settings.name) {
+      entries_changed();
+    }
+  });
   enter_all();
+  take_field();
   take_up_earlier_results();
   start_due();
   tell();
@@ -142,6 +142,8 @@ tl::expected<void, std::string> TournamentDriver::open(std::uint64_t seed) {
                     name));
   }
   seed_ = stored->seed.value_or(0);
+  file_.settings.seed = seed_;
+  book_ = ledger::TournamentBook(file_.settings);
   if (card.status != TournamentStatus::finished) {
     host_.set_status(name, TournamentStatus::running);
   }
@@ -154,14 +156,45 @@ void TournamentDriver::enter_all() {
   }
 }
 
+void TournamentDriver::take_field() {
+  std::vector<ledger::Entered> entered;
+  for (const TournamentEntry& entry : host_.entries(file_.settings.name)) {
+    entered.push_back({entry.name, {entry.from_round, entry.until_round}});
+  }
+  book_.set_field(entered);
+}
+
+// Matches of who has left that have not begun are taken back where the format goes on without.
+void TournamentDriver::entries_changed() {
+  if (over_) {
+    return;
+  }
+  take_field();
+  std::set<std::uint32_t> begun;
+  for (const MatchOutcome& outcome : host_.unfinished_matches(file_.settings.name)) {
+    begun.insert(outcome.pairing);
+    book_.begin(outcome.pairing);
+  }
+  plan();
+  for (const std::uint32_t number : director_.running()) {
+    if (book_.pairing(number) == nullptr && !begun.contains(number)) {
+      host_.cancel_match(file_.settings.name, number);
+      game_began_.erase(number);
+      director_.drop(number);
+    }
+  }
+  start_due();
+  tell();
+}
+
 void TournamentDriver::take_up_earlier_results() {
   const auto finished = host_.finished_matches(file_.settings.name);
   const auto unfinished = host_.unfinished_matches(file_.settings.name);
   for (const MatchOutcome& outcome : finished) {
-    book_.take(outcome.pairing, scored(outcome.games), ledger::MatchStage::over);
+    book_.take(outcome.pairing, outcome.games, ledger::MatchStage::over);
   }
   for (const MatchOutcome& outcome : unfinished) {
-    book_.take(outcome.pairing, scored(outcome.games), ledger::MatchStage::going_on);
+    book_.take(outcome.pairing, outcome.games, ledger::MatchStage::going_on);
   }
   plan();
   for (const MatchOutcome& outcome : finished) {
@@ -181,7 +214,7 @@ void TournamentDriver::match_over(const MatchOutcome& outcome) {
   if (!director_.is_known(outcome.pairing) || director_.is_over(outcome.pairing)) {
     return;
   }
-  book_.take(outcome.pairing, scored(outcome.games), ledger::MatchStage::over);
+  book_.take(outcome.pairing, outcome.games, ledger::MatchStage::over);
   game_began_.erase(outcome.pairing);
   director_.end(outcome.pairing);
   plan();
@@ -191,7 +224,7 @@ void TournamentDriver::match_over(const MatchOutcome& outcome) {
 
 void TournamentDriver::game_over(const MatchOrder& order, const GameOutcome& outcome) {
   const Pairing* pairing = book_.pairing(order.pairing);
-  if (pairing == nullptr || !book_.add_game(order.pairing, scored(outcome))) {
+  if (pairing == nullptr || !book_.add_game(order.pairing, outcome)) {
     return;
   }
   const auto began = game_began_.find(order.pairing);
@@ -208,6 +241,9 @@ void TournamentDriver::game_over(const MatchOrder& order, const GameOutcome& out
 void TournamentDriver::plan() {
   book_.plan();
   director_.plan(book_.schedule().pairings);
+  const tournament::Schedule& now = book_.schedule();
+  host_.set_intake(file_.settings.name, {tournament::late_round(book_.format().kind, now),
+                                         std::max(now.rounds_drawn, 1U)});
 }
 
 void TournamentDriver::start_due() {
@@ -221,7 +257,6 @@ void TournamentDriver::start_due() {
 
 void TournamentDriver::start(const Pairing& pairing) {
   game_began_[pairing.number] = now_();
-  book_.begin(pairing.number);
   host_.start_match(order_of(pairing));
 }
 
@@ -241,8 +276,7 @@ MatchOrder TournamentDriver::order_of(const Pairing& pairing) const {
   MatchOrder order;
   order.tournament = file_.settings.name;
   order.pairing = pairing.number;
-  order.agents = {file_.settings.entries[index(pairing.first)].name,
-                  file_.settings.entries[index(pairing.second)].name};
+  order.agents = {book_.names()[index(pairing.first)], book_.names()[index(pairing.second)]};
   order.games = file_.settings.games_per_match;
   order.terms = terms_of(file_.settings);
   order.seed = tournament::pairing_seed(seed_, pairing.number);
@@ -265,7 +299,7 @@ TournamentView TournamentDriver::view() const {
   view.names = book_.names();
   view.rules = book_.table_rules();
   view.games = book_.games();
-  view.note = ledger::sprt_line(book_);
+  view.remarks = ledger::remarks(book_);
   view.timed = timed_;
   for (const Pairing& pairing : book_.schedule().pairings) {
     const std::uint32_t played = book_.games_played(pairing.number);

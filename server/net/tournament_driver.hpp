@@ -42,13 +42,17 @@ struct TournamentView {
   std::vector<tournament::TimedGame> timed;   // those that ended since `began`
   std::vector<Running> running;
   std::vector<tournament::TimedGame> waiting;  // of the matches that are known so far
-  std::optional<std::string> note{};           // what the format has to say: how an SPRT stands
+  std::string remarks{};                       // lines: how an SPRT stands, where a lot decided
   SteadyTime began{};
   bool over = false;
 };
 
 [[nodiscard]] tournament::Standings standings_of(const TournamentView& view);
 [[nodiscard]] tournament::Progress progress_of(const TournamentView& view, SteadyTime now);
+
+// An entry of a file, as a host wants it.
+[[nodiscard]] TournamentEntry entry_of(const std::string& tournament,
+                                       const settings::EntrySettings& settings);
 
 class TournamentDriver {
  public:
@@ -67,6 +71,8 @@ class TournamentDriver {
   [[nodiscard]] tl::expected<void, std::string> open(std::uint64_t seed);
   void enter_all();
   void take_up_earlier_results();
+  void take_field();
+  void entries_changed();
   void match_over(const MatchOutcome& outcome);
   void game_over(const MatchOrder& order, const GameOutcome& outcome);
   // Follows what the results make of the schedule.

@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <utility>
 
-#include "server/settings/tournament_settings.hpp"
-
 namespace poolhall::net {
 
 using protocol::Error;
@@ -38,13 +36,14 @@ storage::TermsRecord record_of(const GameTerms& terms, const protocol::Limits& l
 }  // namespace
 
 Tournaments::Tournaments(GameServices& services, Matches& matches, Untold& untold,
-                         storage::Counters& ids, House house, StandIn stand_in)
+                         storage::Counters& ids, Outside outside)
     : services_(services),
       matches_(matches),
       untold_(untold),
       ids_(ids),
-      house_(std::move(house)),
-      stand_in_(std::move(stand_in)) {}
+      house_(std::move(outside.house)),
+      stand_in_(std::move(outside.stand_in)),
+      forfeit_games_(std::move(outside.forfeit_games)) {}
 
 storage::Expected<void> Tournaments::restore(storage::Reader& reader) {
   const auto records = reader.tournaments();
@@ -68,7 +67,7 @@ storage::Expected<void> Tournaments::restore_one(storage::Reader& reader,
     return tl::unexpected(entries ? matches.error() : entries.error());
   }
   for (const storage::EntryRecord& entry : *entries) {
-    tournament.entered.push_back({entry.agent, entry.withdrawn});
+    tournament.entered.push_back(entry);
   }
   for (const storage::MatchRecord& match : *matches) {
     if (!match.over || !match.pairing) {
@@ -80,7 +79,7 @@ storage::Expected<void> Tournaments::restore_one(storage::Reader& reader,
     }
     MatchOutcome outcome{record.id, *match.pairing, match.id, {}};
     for (const storage::GameRecord& game : *games) {
-      if (const auto scored = Matches::outcome_of(match, game)) {
+      if (const auto scored = ledger::scored_game(match, game)) {
         outcome.games.push_back(*scored);
       }
     }
@@ -100,6 +99,7 @@ Tournaments::Tournament& Tournaments::keep(const storage::TournamentRecord& reco
   if (const auto settings = settings::parse_tournament(record.settings, record.id)) {
     tournament.listing.rules = settings->rules;
     tournament.listing.format = settings->format;
+    tournament.joining = settings->join;
   }
   return tournament;
 }
@@ -146,75 +146,6 @@ std::vector<TournamentCard> Tournaments::tournaments() const {
   return cards;
 }
 
-void Tournaments::enter(const TournamentEntry& entry) {
-  const auto found = tournaments_.find(entry.tournament);
-  if (found == tournaments_.end()) {
-    spdlog::error("entry {}: there is no tournament {}", entry.name, entry.tournament);
-    return;
-  }
-  if (entry.house_bot || entry.command) {
-    Agent& agent = house_(entry.name, {.bot = entry.house_bot.value_or("command"),
-                                       .options = entry.house_options,
-                                       .command = entry.command});
-    house_entries_[agent.id()] = entry;
-    add_entry(found->second, agent.id());
-  } else if (const Agent* agent = services_.book.named(entry.name)) {
-    add_entry(found->second, agent->id());
-  } else {
-    awaited_entries_.push_back(entry);
-  }
-}
-
-void Tournaments::add_entry(Tournament& tournament, storage::AgentId agent) {
-  const auto known = std::find_if(tournament.entered.begin(), tournament.entered.end(),
-                                  [agent](const Entered& entry) { return entry.agent == agent; });
-  if (known != tournament.entered.end()) {
-    return;
-  }
-  storage::EntryRecord record;
-  record.tournament = tournament.record.id;
-  record.agent = agent;
-  record.place = static_cast<std::uint32_t>(tournament.entered.size());
-  tournament.entered.push_back({agent, false});
-  store([record](storage::Database& database) { return database.add_entry(record); },
-        "an entry of tournament " + record.tournament);
-}
-
-TournamentEntry Tournaments::entry_of(const std::string& tournament, storage::AgentId agent) const {
-  const auto house = house_entries_.find(agent);
-  if (house != house_entries_.end()) {
-    TournamentEntry entry = house->second;
-    entry.tournament = tournament;
-    return entry;
-  }
-  TournamentEntry entry;
-  entry.tournament = tournament;
-  entry.name = services_.book.name_of(agent);
-  if (const Agent* known = services_.book.find(agent)) {
-    entry.house_bot = known->record.house_bot;
-  }
-  return entry;
-}
-
-std::vector<TournamentEntry> Tournaments::entries(const std::string& tournament) const {
-  std::vector<TournamentEntry> list;
-  const auto found = tournaments_.find(tournament);
-  if (found == tournaments_.end()) {
-    return list;
-  }
-  for (const Entered& entry : found->second.entered) {
-    if (!entry.withdrawn) {
-      list.push_back(entry_of(tournament, entry.agent));
-    }
-  }
-  for (const TournamentEntry& entry : awaited_entries_) {
-    if (entry.tournament == tournament) {
-      list.push_back(entry);
-    }
-  }
-  return list;
-}
-
 void Tournaments::start_match(const MatchOrder& order) {
   const auto found = tournaments_.find(order.tournament);
   if (found == tournaments_.end()) {
@@ -244,6 +175,13 @@ void Tournaments::start_match(const MatchOrder& order) {
   }
   awaited_until_.erase(key);
   begin(order, {first->id(), second->id()});
+}
+
+void Tournaments::cancel_match(const std::string& tournament, std::uint32_t pairing) {
+  const OrderKey key{tournament, pairing};
+  orders_.erase(key);
+  awaited_orders_.erase(key);
+  awaited_until_.erase(key);
 }
 
 void Tournaments::await_agents(const OrderKey& key, const MatchOrder& order) {
@@ -290,7 +228,7 @@ void Tournaments::begin(const MatchOrder& order, const std::array<storage::Agent
     if (started.error().code == ErrorCode::paused) {
       auto timer = std::make_shared<boost::asio::steady_timer>(services_.io, start_retry);
       timer->async_wait([this, timer, order](const boost::system::error_code& error) {
-        if (!error) {
+        if (!error && orders_.contains({order.tournament, order.pairing})) {
           start_match(order);
         }
       });

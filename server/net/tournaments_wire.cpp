@@ -58,6 +58,9 @@ void Tournaments::list(const Asker& asker) const {
     listing.status = wire_status(tournament.record.status);
     std::size_t bytes = id->size() + listing_bytes;
     for (const TournamentEntry& entry : entries(*id)) {
+      if (entry.until_round) {
+        continue;
+      }
       bytes += entry.name.size() + 3;
       listing.agents.push_back(entry.name);
     }
@@ -81,92 +84,6 @@ Tournaments::Tournament* Tournaments::find(const Asker& asker, protocol::Tournam
   return nullptr;
 }
 
-void Tournaments::join(const Asker& asker, storage::AgentId agent, protocol::TournamentId id) {
-  Tournament* tournament = find(asker, id);
-  if (tournament == nullptr) {
-    return;
-  }
-  const protocol::TournamentReply joined{id, protocol::Membership::joined};
-  const auto known = std::find_if(tournament->entered.begin(), tournament->entered.end(),
-                                  [agent](const Entered& entry) { return entry.agent == agent; });
-  if (known != tournament->entered.end() && !known->withdrawn) {
-    asker.reply(joined);
-    return;
-  }
-  if (tournament->record.status != TournamentStatus::open) {
-    asker.refuse({ErrorCode::tournament_closed, "/params/tournament",
-                  "the tournament takes no entries any more"});
-    return;
-  }
-  if (known != tournament->entered.end()) {
-    asker.refuse({ErrorCode::tournament_closed, "/params/tournament",
-                  "who has left a tournament does not come back"});
-    return;
-  }
-  const storage::EntryRecord record{tournament->record.id, agent,
-                                    static_cast<std::uint32_t>(tournament->entered.size()), false};
-  tournament->entered.push_back({agent, false});
-  const auto posted = services_.writer.post(
-      [record](storage::Database& database) { return database.add_entry(record); },
-      [asker, joined](const storage::Expected<void>& stored) {
-        if (stored) {
-          asker.reply(joined);
-        } else {
-          asker.refuse({ErrorCode::internal, "", stored.error().reason});
-        }
-      });
-  if (posted != storage::Posted::accepted) {
-    tournament->entered.pop_back();
-    asker.refuse({ErrorCode::paused, "", "the database takes nothing at the moment"});
-  }
-}
-
-void Tournaments::leave(const Asker& asker, storage::AgentId agent, protocol::TournamentId id) {
-  Tournament* tournament = find(asker, id);
-  if (tournament == nullptr) {
-    return;
-  }
-  const auto known = std::find_if(tournament->entered.begin(), tournament->entered.end(),
-                                  [agent](const Entered& entry) { return entry.agent == agent; });
-  const protocol::TournamentReply left{id, protocol::Membership::left};
-  if (known == tournament->entered.end() || known->withdrawn) {
-    asker.reply(left);
-    return;
-  }
-  if (tournament->record.status != TournamentStatus::open) {
-    asker.refuse({ErrorCode::tournament_closed, "/params/tournament",
-                  "the tournament has begun; concede games to end them"});
-    return;
-  }
-  known->withdrawn = true;
-  const auto posted = services_.writer.post(
-      [name = tournament->record.id, agent](storage::Database& database) {
-        return database.withdraw_entry(name, agent);
-      },
-      [asker, left](const storage::Expected<void>& stored) {
-        if (stored) {
-          asker.reply(left);
-        } else {
-          asker.refuse({ErrorCode::internal, "", stored.error().reason});
-        }
-      });
-  if (posted != storage::Posted::accepted) {
-    known->withdrawn = false;
-    asker.refuse({ErrorCode::paused, "", "the database takes nothing at the moment"});
-  }
-}
-
-void Tournaments::agent_enrolled() {
-  const auto entries = std::exchange(awaited_entries_, {});
-  for (const TournamentEntry& entry : entries) {
-    enter(entry);  // who is not known yet, waits again
-  }
-  const auto orders = std::exchange(awaited_orders_, {});
-  for (const auto& [key, order] : orders) {
-    start_match(order);
-  }
-}
-
 void Tournaments::announce_end(const std::string& tournament,
                                const std::vector<protocol::StandingRow>& standings) {
   const auto found = tournaments_.find(tournament);
@@ -174,7 +91,7 @@ void Tournaments::announce_end(const std::string& tournament,
     return;
   }
   std::vector<storage::AgentId> agents;
-  for (const Entered& entry : found->second.entered) {
+  for (const storage::EntryRecord& entry : found->second.entered) {
     agents.push_back(entry.agent);
   }
   std::vector<storage::FinalStanding> rows;

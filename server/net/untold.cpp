@@ -252,7 +252,7 @@ std::array<double, 2> points_of(const storage::MatchRecord& match,
                                 const std::vector<storage::GameRecord>& games) {
   std::array<double, 2> points{};
   for (const storage::GameRecord& game : games) {
-    const auto outcome = Matches::outcome_of(match, game);
+    const auto outcome = ledger::scored_game(match, game);
     if (!outcome) {
       continue;
     }

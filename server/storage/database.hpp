@@ -100,8 +100,8 @@ class Database : public Reader {
   [[nodiscard]] virtual Expected<void> set_tournament_status(std::string_view tournament,
                                                              TournamentStatus status) = 0;
   [[nodiscard]] virtual Expected<void> add_entry(const EntryRecord& entry) = 0;
-  [[nodiscard]] virtual Expected<void> withdraw_entry(std::string_view tournament,
-                                                      AgentId agent) = 0;
+  // Stores again which rounds it takes part in.
+  [[nodiscard]] virtual Expected<void> update_entry(const EntryRecord& entry) = 0;
   [[nodiscard]] virtual Expected<void> add_match(const MatchRecord& match) = 0;
   // Stores again whether it is over, when, and the seal. Once it is over both agents have to be
   // told, until they acknowledge it.

@@ -72,11 +72,15 @@ struct TournamentRecord {
 struct EntryRecord {
   std::string tournament;
   AgentId agent{};
-  std::uint32_t place = 0;  // in the order of entering, from 0
-  bool withdrawn = false;
+  std::uint32_t place = 0;       // in the order of entering, from 0
+  std::uint32_t from_round = 0;  // later for those who came late
+  // The first round without it, once it has left; 0: before the tournament began.
+  std::optional<std::uint32_t> until_round{};
   std::optional<std::string> house_bot{};    // played by a process that the server starts,
   std::vector<std::string> house_options{};  // with these options,
   std::optional<std::string> command{};      // or with this command
+
+  [[nodiscard]] bool withdrawn() const { return until_round.has_value(); }
 
   friend bool operator==(const EntryRecord&, const EntryRecord&) = default;
 };

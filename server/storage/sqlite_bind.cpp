@@ -70,7 +70,10 @@ Binder& Binder::operator<<(const TournamentRecord& tournament) {
 
 Binder& Binder::operator<<(const EntryRecord& entry) {
   return *this << entry.tournament << number(entry.agent) << std::int64_t{entry.place}
-               << std::int64_t{entry.withdrawn} << entry.house_bot << entry.command;
+               << std::int64_t{entry.from_round}
+               << (entry.until_round ? std::optional<std::int64_t>(*entry.until_round)
+                                     : std::nullopt)
+               << entry.house_bot << entry.command;
 }
 
 void Binder::put(const TermsRecord& terms) {

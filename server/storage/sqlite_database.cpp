@@ -73,7 +73,7 @@ class SqliteDatabase final : public Database {
   Expected<void> set_tournament_status(std::string_view tournament,
                                        TournamentStatus status) override;
   Expected<void> add_entry(const EntryRecord& entry) override;
-  Expected<void> withdraw_entry(std::string_view tournament, AgentId agent) override;
+  Expected<void> update_entry(const EntryRecord& entry) override;
   Expected<void> add_match(const MatchRecord& match) override;
   Expected<void> update_match(const MatchRecord& match) override;
   Expected<void> finish_tournament(std::string_view tournament,
@@ -401,9 +401,12 @@ Expected<void> SqliteDatabase::add_entry(const EntryRecord& entry) {
   return added;
 }
 
-Expected<void> SqliteDatabase::withdraw_entry(std::string_view tournament, AgentId agent) {
-  return change("UPDATE entries SET withdrawn=1 WHERE tournament=? AND agent=?", tournament,
-                number(agent));
+Expected<void> SqliteDatabase::update_entry(const EntryRecord& entry) {
+  const auto until =
+      entry.until_round ? std::optional<std::int64_t>(*entry.until_round) : std::nullopt;
+  return change("UPDATE entries SET from_round=?, until_round=? WHERE tournament=? AND agent=?",
+                std::int64_t{entry.from_round}, until, std::string_view(entry.tournament),
+                number(entry.agent));
 }
 
 Expected<void> SqliteDatabase::add_match(const MatchRecord& match) {

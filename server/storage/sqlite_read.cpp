@@ -80,6 +80,12 @@ std::optional<std::string> Columns::optional_text() {
   return text();
 }
 
+std::optional<std::uint32_t> Columns::optional_count() {
+  if (skip_null())
+    return std::nullopt;
+  return count();
+}
+
 std::optional<Digest> Columns::optional_digest() {
   if (skip_null())
     return std::nullopt;
@@ -115,7 +121,8 @@ EntryRecord Columns::entry() {
   entry.tournament = text();
   entry.agent = AgentId{integer()};
   entry.place = count();
-  entry.withdrawn = flag();
+  entry.from_round = count();
+  entry.until_round = optional_count();
   entry.house_bot = optional_text();
   entry.command = optional_text();
   return entry;

@@ -27,7 +27,7 @@ struct Unreadable : std::runtime_error {
 inline constexpr std::string_view agent_columns = "id,name,token_hash,house_bot,created";
 inline constexpr std::string_view tournament_columns = "id,wire_id,title,settings,status,created";
 inline constexpr std::string_view entry_columns =
-    "tournament,agent,place,withdrawn,house_bot,command";
+    "tournament,agent,place,from_round,until_round,house_bot,command";
 inline constexpr std::string_view match_columns =
     "id,tournament,pairing,request,first_agent,second_agent,games,rules,table_name,materials,noise,"
     "noise_hidden,rack_gap,rack_jitter,clock_us,increment_us,shot_cap_us,max_refusals,"
@@ -119,6 +119,7 @@ class Columns {
  private:
   [[nodiscard]] SQLite::Column take();
   [[nodiscard]] std::optional<std::string> optional_text();
+  [[nodiscard]] std::optional<std::uint32_t> optional_count();
   [[nodiscard]] std::optional<Digest> optional_digest();
   [[nodiscard]] TermsRecord terms();
   [[nodiscard]] std::optional<rules::GameResult> result();

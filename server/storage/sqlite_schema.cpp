@@ -209,7 +209,15 @@ ALTER TABLE games ADD COLUMN second_secret BLOB;
 ALTER TABLE turns ADD COLUMN shared INTEGER;
 )sql";
 
-constexpr std::array<std::string_view, 3> all{first, second, fair_noise};
+// The rounds that an entry takes part in.
+constexpr std::string_view entry_rounds = R"sql(
+ALTER TABLE entries ADD COLUMN from_round INTEGER NOT NULL DEFAULT 0;
+ALTER TABLE entries ADD COLUMN until_round INTEGER;
+UPDATE entries SET until_round = 0 WHERE withdrawn = 1;
+ALTER TABLE entries DROP COLUMN withdrawn;
+)sql";
+
+constexpr std::array<std::string_view, 4> all{first, second, fair_noise, entry_rounds};
 
 }  // namespace
 

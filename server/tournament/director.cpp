@@ -14,7 +14,10 @@ void Director::plan(const std::vector<Pairing>& schedule) {
   std::set<std::uint32_t> planned;
   for (const Pairing& pairing : schedule) {
     planned.insert(pairing.number);
-    slots_.try_emplace(pairing.number, Slot{pairing, Status::waiting});
+    Slot& slot = slots_[pairing.number];
+    if (slot.status == Status::waiting) {
+      slot.pairing = pairing;
+    }
   }
   std::erase_if(slots_, [&](const auto& slot) {
     return slot.second.status == Status::waiting && !planned.contains(slot.first);
@@ -30,6 +33,16 @@ std::vector<Pairing> Director::begin_due() {
     }
   }
   return due;
+}
+
+std::vector<std::uint32_t> Director::running() const {
+  std::vector<std::uint32_t> numbers;
+  for (const auto& [number, slot] : slots_) {
+    if (slot.status == Status::running) {
+      numbers.push_back(number);
+    }
+  }
+  return numbers;
 }
 
 void Director::resume(std::uint32_t pairing) {

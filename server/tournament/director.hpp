@@ -32,13 +32,17 @@ class Director {
   Director(const std::vector<Pairing>& schedule, ConcurrencyLimits limits,
            Pace pace = Pace::free_running);
 
-  // The schedule as it is now: new pairings wait, waiting ones that are not in it any more are
-  // dropped; what has begun stays.
+  // The schedule as it is now: new pairings wait, waiting ones are replaced or, when they are not
+  // in it any more, dropped; what has begun stays.
   void plan(const std::vector<Pairing>& schedule);
 
   // Those that are due now and were not before, in the order of the schedule; they count as
   // running from here on.
   [[nodiscard]] std::vector<Pairing> begin_due();
+
+  // An order was taken back: as if it had never been due.
+  void drop(std::uint32_t pairing) { slots_.erase(pairing); }
+  [[nodiscard]] std::vector<std::uint32_t> running() const;
 
   // A match is going on already, from an earlier run of the tournament.
   void resume(std::uint32_t pairing);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "server/tournament/formats.hpp"
+#include "server/tournament/seeds.hpp"
 
 namespace poolhall::tournament {
 namespace {
@@ -13,8 +14,11 @@ namespace {
 using Kind = BracketSource::Kind;
 using Sources = std::vector<BracketSource>;
 
-// A drawn match is played again; after so many draws the better seed goes on.
+// A level match is played again, one with a drawn game in it once, others so often in all; then a
+// lot decides.
 constexpr std::uint32_t attempts = 8;
+constexpr std::uint32_t drawn_attempts = 2;
+constexpr std::uint64_t lots = 0x6c6f7473;  // a sequence of its own, not that of the racks
 
 class Tree {
  public:
@@ -123,8 +127,9 @@ struct Stand {
 class Elimination {
  public:
   Elimination(std::vector<BracketMatch> tree, const std::vector<EntrySpan>& field,
-              const Happened& happened)
+              const Happened& happened, std::uint64_t seed)
       : tree_(std::move(tree)),
+        seed_(seed),
         field_(field),
         happened_(happened),
         outcomes_(tree_.size()),
@@ -185,7 +190,8 @@ class Elimination {
     const bool better_first = first_breaks_[index(better)] <= first_breaks_[index(worse)];
     EntryId first = better_first ? better : worse;
     EntryId second = better_first ? worse : better;
-    for (std::uint32_t attempt = 0; attempt < attempts; ++attempt) {
+    std::uint32_t drawn = 0;
+    for (std::uint32_t attempt = 0; attempt < attempts && drawn < drawn_attempts; ++attempt) {
       const auto number = static_cast<std::uint32_t>(match) * attempts + attempt;
       if (const auto left = walkover(number, one, two)) {
         return left;
@@ -200,9 +206,13 @@ class Elimination {
       if (difference != 0) {
         return difference > 0 ? first : second;
       }
+      drawn += found->second.has_drawn_game() ? 1 : 0;
       std::swap(first, second);
     }
-    return better;
+    const bool better_goes_on =
+        pairing_seed(seed_ ^ lots, static_cast<std::uint32_t>(match)) % 2 == 0;
+    now_.lots.push_back({round, better_goes_on ? better : worse, better_goes_on ? worse : better});
+    return now_.lots.back().winner;
   }
 
   // Who goes on because the other one has withdrawn before the match began.
@@ -243,6 +253,7 @@ class Elimination {
   }
 
   std::vector<BracketMatch> tree_;
+  std::uint64_t seed_;
   const std::vector<EntrySpan>& field_;
   const Happened& happened_;
   std::vector<Outcome> outcomes_;
@@ -257,7 +268,7 @@ Schedule elimination_schedule(const FormatSettings& format, const std::vector<En
   return Elimination(format.kind == FormatKind::single_elimination
                          ? single_elimination_tree(field.size())
                          : double_elimination_tree(field.size()),
-                     field, happened)
+                     field, happened, format.seed)
       .run();
 }
 

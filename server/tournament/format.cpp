@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <iterator>
 #include <numeric>
 #include <utility>
 
@@ -36,11 +37,22 @@ std::optional<FormatKind> format_kind(std::string_view name) {
 }
 
 double MatchResult::first_points() const {
-  return std::accumulate(first_scores.begin(), first_scores.end(), 0.0);
+  return std::accumulate(games.begin(), games.end(), 0.0,
+                         [](double sum, const GameScore& game) { return sum + game.first; });
 }
 
 double MatchResult::second_points() const {
-  return static_cast<double>(first_scores.size()) - first_points();
+  return static_cast<double>(games.size()) - first_points();
+}
+
+bool MatchResult::was_played() const {
+  return std::any_of(games.begin(), games.end(),
+                     [](const GameScore& game) { return game.was_played; });
+}
+
+bool MatchResult::has_drawn_game() const {
+  return std::any_of(games.begin(), games.end(),
+                     [](const GameScore& game) { return game.first == 0.5; });
 }
 
 Schedule schedule(const FormatSettings& format, const std::vector<EntrySpan>& field,
@@ -60,15 +72,18 @@ Schedule schedule(const FormatSettings& format, const std::vector<EntrySpan>& fi
     case FormatKind::sprt:
       break;
   }
-  return sprt_schedule(format, happened);
+  return sprt_schedule(format, field, happened);
 }
 
 std::uint32_t swiss_rounds_of(std::size_t entries) {
   return entries < 2 ? 0 : static_cast<std::uint32_t>(std::bit_width(entries - 1));
 }
 
-bool takes_late_entries(FormatKind kind) {
-  return kind == FormatKind::swiss || kind == FormatKind::ladder;
+std::optional<std::uint32_t> late_round(FormatKind kind, const Schedule& schedule) {
+  const bool takes_any = kind == FormatKind::swiss || kind == FormatKind::ladder;
+  return takes_any && !schedule.is_complete && schedule.rounds_drawn < schedule.rounds
+             ? std::optional(schedule.rounds_drawn)
+             : std::nullopt;
 }
 
 TableRules table_rules(const FormatSettings& format, const Schedule& schedule,
@@ -131,7 +146,25 @@ std::vector<Pairing> gauntlet(std::size_t entries, std::size_t runners) {
   return pairings;
 }
 
-Schedule sprt_schedule(const FormatSettings& format, const Happened& happened) {
+namespace {
+
+// The first one's scores in pairs of games with one rack that were both played.
+std::vector<double> whole_pairs(const MatchResult& result) {
+  std::vector<double> scores;
+  for (std::size_t i = 0; i + 1 < result.games.size(); ++i) {
+    const GameScore& one = result.games[i];
+    const GameScore& two = result.games[i + 1];
+    if (one.number % 2 == 0 && two.number == one.number + 1 && one.was_played && two.was_played) {
+      scores.insert(scores.end(), {one.first, two.first});
+    }
+  }
+  return scores;
+}
+
+}  // namespace
+
+Schedule sprt_schedule(const FormatSettings& format, const std::vector<EntrySpan>& field,
+                       const Happened& happened) {
   const EntryId one = entry_id(0);
   const EntryId two = entry_id(1);
   Schedule now;
@@ -139,10 +172,9 @@ Schedule sprt_schedule(const FormatSettings& format, const Happened& happened) {
   std::vector<std::size_t> games_until;  // by match
   for (std::uint32_t number = 0; number < format.rounds && happened.results.contains(number);
        ++number) {
-    const bool turned = number % 2 == 1;
-    for (const double score : happened.results.at(number).first_scores) {
-      scores.push_back(turned ? 1 - score : score);
-    }
+    const auto pairs = whole_pairs(happened.results.at(number));
+    std::transform(pairs.begin(), pairs.end(), std::back_inserter(scores),
+                   [turned = number % 2 == 1](double score) { return turned ? 1 - score : score; });
     games_until.push_back(scores.size());
   }
   now.sprt = ratings::sprt(scores, format.sprt);
@@ -154,8 +186,14 @@ Schedule sprt_schedule(const FormatSettings& format, const Happened& happened) {
     now.pairings.push_back(
         {number, number, number % 2 == 0 ? one : two, number % 2 == 0 ? two : one});
   }
+  if (std::any_of(field.begin(), field.end(), [](const auto& span) { return span.until; })) {
+    std::erase_if(now.pairings,
+                  [&](const Pairing& pairing) { return !happened.begun.contains(pairing.number); });
+  }
   now.rounds_drawn = format.rounds;
-  now.is_complete = decided || games_until.size() == format.rounds;
+  now.is_complete = std::all_of(
+      now.pairings.begin(), now.pairings.end(),
+      [&](const Pairing& pairing) { return happened.results.contains(pairing.number); });
   return now;
 }
 

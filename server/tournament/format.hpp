@@ -41,6 +41,7 @@ struct FormatSettings {
   std::uint32_t rounds = 0;   // Swiss, ladder, and the most matches of an SPRT; 0: by the format
   std::uint32_t runners = 1;  // of a gauntlet: the first so many entries
   ratings::SprtSettings sprt{};
+  std::uint64_t seed = 0;  // of the lots that an elimination may need
 };
 
 // The rounds that an entry takes part in.
@@ -53,13 +54,20 @@ struct EntrySpan {
   }
 };
 
+struct GameScore {
+  std::uint32_t number = 0;  // in its match
+  double first = 0;          // of Pairing::first: 1 won, 0.5 drawn, 0 lost
+  bool was_played = true;    // not: it was forfeited before its first shot
+};
+
 // A match that is over.
 struct MatchResult {
-  std::vector<double> first_scores;  // of Pairing::first, by game: 1 won, 0.5 drawn, 0 lost
-  bool was_played = true;            // not: every game was forfeited before its first shot
+  std::vector<GameScore> games;  // by number; one that could not be played is not there
 
   [[nodiscard]] double first_points() const;
   [[nodiscard]] double second_points() const;
+  [[nodiscard]] bool was_played() const;  // some game of it
+  [[nodiscard]] bool has_drawn_game() const;
 };
 
 struct Happened {
@@ -76,13 +84,24 @@ struct RoundOff {
   friend bool operator==(const RoundOff&, const RoundOff&) = default;
 };
 
+// Who went on in an elimination by the drawing of a lot.
+struct Lot {
+  std::uint32_t round = 0;
+  EntryId winner{};
+  EntryId loser{};
+
+  friend bool operator==(const Lot&, const Lot&) = default;
+};
+
 struct Schedule {
   std::vector<Pairing> pairings;  // by number
   std::vector<RoundOff> off;      // of formats by rounds
   std::uint32_t rounds_drawn = 0;
+  std::uint32_t rounds = 0;  // of the whole tournament: Swiss and ladder; 0: others
   bool is_complete = false;  // nothing more will come
   // The format's own order of the entries, less is better; empty: by points alone.
   std::vector<std::uint32_t> places;
+  std::vector<Lot> lots;
   std::vector<ratings::Glicko2Rating> ladder;  // by entry
   std::optional<ratings::SprtState> sprt{};
   std::vector<SwissEntry> swiss;  // the rounds that are over, by entry
@@ -105,7 +124,8 @@ struct Schedule {
 // ceil(log2 n): rounds after which one of n has won all. FIDE's rules pair one more.
 [[nodiscard]] std::uint32_t swiss_rounds_of(std::size_t entries);
 
-// Whether newcomers can join while it is played.
-[[nodiscard]] bool takes_late_entries(FormatKind kind);
+// The first round that a newcomer can play while the tournament goes on; none: it takes nobody
+// any more. Only Swiss and ladder take late entries.
+[[nodiscard]] std::optional<std::uint32_t> late_round(FormatKind kind, const Schedule& schedule);
 
 }  // namespace poolhall::tournament

@@ -14,7 +14,8 @@ namespace poolhall::tournament {
 [[nodiscard]] Schedule ladder_schedule(const FormatSettings& format,
                                        const std::vector<EntrySpan>& field,
                                        const Happened& happened);
-[[nodiscard]] Schedule sprt_schedule(const FormatSettings& format, const Happened& happened);
+[[nodiscard]] Schedule sprt_schedule(const FormatSettings& format,
+                                     const std::vector<EntrySpan>& field, const Happened& happened);
 
 // Everybody against everybody, or the runners of a gauntlet against the rest. Who has withdrawn
 // has no matches that have not begun.

@@ -19,6 +19,7 @@ class Ladder {
   }
 
   [[nodiscard]] Schedule run(std::uint32_t rounds) {
+    now_.rounds = rounds;
     bool is_over = true;
     for (std::uint32_t round = 0; round < rounds && is_over; ++round) {
       draw(round);
@@ -75,9 +76,11 @@ class Ladder {
       }
       const std::size_t first = index(pairing.first);
       const std::size_t second = index(pairing.second);
-      for (const double score : found->second.first_scores) {
-        games[first].push_back({now_.ladder[second], score});
-        games[second].push_back({now_.ladder[first], 1 - score});
+      for (const GameScore& game : found->second.games) {
+        if (game.was_played) {
+          games[first].push_back({now_.ladder[second], game.first});
+          games[second].push_back({now_.ladder[first], 1 - game.first});
+        }
       }
     }
     for (std::size_t i = 0; i < field_.size(); ++i) {

@@ -21,6 +21,11 @@ struct PlayedGame {
   friend bool operator==(const PlayedGame&, const PlayedGame&) = default;
 };
 
+// A game that was forfeited before its first shot was not played: that is one stored turn.
+[[nodiscard]] constexpr bool was_played(rules::EndReason reason, std::uint32_t turns) {
+  return reason != rules::EndReason::forfeit || turns > 1;
+}
+
 // What `entry`, one of the two, scored: 1 won, 0.5 drawn, 0 lost.
 [[nodiscard]] constexpr double score_of(const PlayedGame& game, EntryId entry) {
   if (!game.winner) {

@@ -193,12 +193,14 @@ class Ranking {
 
 std::vector<ratings::RatedGame> rated(const std::vector<PlayedGame>& games) {
   std::vector<ratings::RatedGame> rated;
-  std::transform(games.begin(), games.end(), std::back_inserter(rated), [](const PlayedGame& game) {
-    // Games of a pair share their rack.
-    const std::uint64_t pair = (std::uint64_t{game.pairing} << 32U) | (game.number / 2);
-    return ratings::RatedGame{index(game.breaker), index(game.other), score_of(game, game.breaker),
-                              1, pair};
-  });
+  for (const PlayedGame& game : games) {
+    if (was_played(game.reason, game.turns)) {
+      // Games of a pair share their rack.
+      const std::uint64_t pair = (std::uint64_t{game.pairing} << 32U) | (game.number / 2);
+      rated.push_back(
+          {index(game.breaker), index(game.other), score_of(game, game.breaker), 1, pair});
+    }
+  }
   return rated;
 }
 

@@ -13,7 +13,7 @@ SwissRound spent(const MatchResult& result, BreakSide side, EntryId opponent) {
   const double own = is_first ? result.first_points() : result.second_points();
   const double others = is_first ? result.second_points() : result.first_points();
   const int half_points = own > others ? 2 : own < others ? 0 : 1;
-  if (result.was_played) {
+  if (result.was_played()) {
     return {RoundKind::played, opponent, side, half_points};
   }
   if (half_points == 1) {
@@ -28,7 +28,11 @@ class SwissTournament {
   SwissTournament(const FormatSettings& format, const std::vector<EntrySpan>& field,
                   const Happened& happened, const Schedule& drawn)
       : field_(field), happened_(happened), before_(drawn) {
-    terms_.rounds = format.rounds > 0 ? format.rounds : swiss_rounds_of(field.size());
+    // Late entries do not make it longer.
+    const auto from_the_start = static_cast<std::size_t>(std::count_if(
+        field.begin(), field.end(), [](const EntrySpan& span) { return span.from == 0; }));
+    terms_.rounds = format.rounds > 0 ? format.rounds : swiss_rounds_of(from_the_start);
+    now_.rounds = terms_.rounds;
     for (std::size_t i = 0; i < field.size(); ++i) {
       now_.swiss.push_back({entry_id(i), static_cast<std::uint32_t>(i + 1), {}});
     }
@@ -81,24 +85,26 @@ class SwissTournament {
   }
 
   void pair(std::uint32_t round, const std::vector<SwissPlayer>& present) {
-    const auto of_round = [round](const auto& part) { return part.round == round; };
     drawn_.clear();
     off_.clear();
+    for (std::size_t i = 0; i < field_.size(); ++i) {
+      if (!field_[i].covers(round)) {
+        off_.push_back({round, entry_id(i), RoundKind::absent});
+      }
+    }
     if (round < before_.rounds_drawn) {
       std::copy_if(before_.pairings.begin(), before_.pairings.end(), std::back_inserter(drawn_),
-                   of_round);
-      std::copy_if(before_.off.begin(), before_.off.end(), std::back_inserter(off_), of_round);
+                   [round](const Pairing& pairing) { return pairing.round == round; });
+      std::copy_if(before_.off.begin(), before_.off.end(), std::back_inserter(off_),
+                   [round](const RoundOff& off) {
+                     return off.round == round && off.kind == RoundKind::bye;
+                   });
       return;
     }
     const SwissPairings pairings = pair_swiss_round(present, terms_);
     auto number = static_cast<std::uint32_t>(now_.pairings.size());
     for (const SwissPair& pair : pairings.pairs) {
       drawn_.push_back({number++, round, pair.first, pair.second});
-    }
-    for (std::size_t i = 0; i < field_.size(); ++i) {
-      if (!field_[i].covers(round)) {
-        off_.push_back({round, entry_id(i), RoundKind::absent});
-      }
     }
     if (pairings.bye) {
       off_.push_back({round, *pairings.bye, RoundKind::bye});

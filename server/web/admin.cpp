@@ -36,8 +36,28 @@ std::optional<HostCalls::Change> change_named(std::string_view name) {
   return name == "abort" ? std::optional{Change::abort} : std::nullopt;
 }
 
+std::optional<HostCalls::EntryChange> entry_change_named(std::string_view name) {
+  if (name == "enter") {
+    return HostCalls::EntryChange::enter;
+  }
+  return name == "withdraw" ? std::optional{HostCalls::EntryChange::withdraw} : std::nullopt;
+}
+
 Page no_such_call() {
   return refusal(404, "not_found", "there is no such call; see /api/openapi.json");
+}
+
+// The text of a body's one member; without it `then` hears why.
+std::optional<std::string> member_of(std::string_view body, std::string_view key,
+                                     const Then& then) {
+  const auto text = protocol::read_document(
+      body, settings_bounds,
+      [key](const protocol::JsonNode& root_node) { return root_node.at(key).string(); });
+  if (text) {
+    return *text;
+  }
+  then(refusal(400, "bad_request", text.error().field + ": " + text.error().reason));
+  return std::nullopt;
 }
 
 // A bare TOML key, or a quoted one.
@@ -169,22 +189,31 @@ void Admin::tournament_call(const AdminRequest& request, std::string_view rest,
     return;
   }
   const auto slash = rest.rfind('/');
-  const auto change = change_named(rest.substr(slash + 1));
-  if (rest.front() != '/' || slash < 2 || !change) {
+  const std::string_view call = rest.substr(slash + 1);
+  if (rest.front() != '/' || slash < 2) {
     then(no_such_call());
     return;
   }
-  calls_.change_tournament(std::string{rest.substr(1, slash - 1)}, *change, then);
+  const std::string id{rest.substr(1, slash - 1)};
+  if (const auto change = change_named(call)) {
+    calls_.change_tournament(id, *change, then);
+  } else if (const auto entry_change = entry_change_named(call)) {
+    entry_call(request, id, *entry_change, then);
+  } else {
+    then(no_such_call());
+  }
+}
+
+void Admin::entry_call(const AdminRequest& request, const std::string& id,
+                       HostCalls::EntryChange change, const Then& then) const {
+  if (const auto agent = member_of(request.body, "agent", then)) {
+    calls_.change_entry(id, change, *agent, then);
+  }
 }
 
 void Admin::agent_call(const AdminRequest& request, const Then& then) const {
-  const auto name = protocol::read_document(
-      request.body, settings_bounds,
-      [](const protocol::JsonNode& root_node) { return root_node.at("name").string(); });
-  if (name) {
+  if (const auto name = member_of(request.body, "name", then)) {
     calls_.add_agent(*name, then);
-  } else {
-    then(refusal(400, "bad_request", name.error().field + ": " + name.error().reason));
   }
 }
 

@@ -30,6 +30,10 @@ struct HostCalls {
   // From the text of a tournament file.
   std::function<void(const std::string& toml, Then then)> create_tournament;
   std::function<void(const std::string& id, Change change, Then then)> change_tournament;
+  enum class EntryChange : std::uint8_t { enter, withdraw };
+  std::function<void(const std::string& id, EntryChange change, const std::string& agent,
+                     Then then)>
+      change_entry;
   std::function<void(const std::string& name, Then then)> add_agent;
   std::function<void(std::int64_t game, Then then)> void_game;
 };
@@ -46,6 +50,8 @@ class Admin {
   // Whether the header has the token: compared in constant time, never repeated.
   [[nodiscard]] bool is_authorized(std::string_view authorization) const;
   void tournament_call(const AdminRequest& request, std::string_view rest, const Then& then) const;
+  void entry_call(const AdminRequest& request, const std::string& id, HostCalls::EntryChange change,
+                  const Then& then) const;
   void agent_call(const AdminRequest& request, const Then& then) const;
   void game_call(std::string_view rest, const Then& then) const;
 

@@ -207,7 +207,7 @@ void write_entries(JsonWriter& out, const Field& field, const Names& names) {
   out.key("entries").begin_array();
   for (const storage::EntryRecord& entry : field.entries) {
     out.begin_object().key("agent").string(name_in(names, entry.agent));
-    out.key("withdrawn").boolean(entry.withdrawn).end_object();
+    out.key("withdrawn").boolean(entry.withdrawn()).end_object();
   }
   out.end_array();
 }

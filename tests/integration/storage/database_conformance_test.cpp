@@ -289,8 +289,9 @@ TEST_P(DatabaseConformance, keeps_entries_in_their_order_with_their_options) {
   in_transaction([&] { return database_->add_entry(anna); });
   in_transaction([&] { return database_->add_entry(bob); });
   EXPECT_THAT(database_->entries("demo").value(), ElementsAre(bob, anna));
-  in_transaction([&] { return database_->withdraw_entry("demo", AgentId{1}); });
-  anna.withdrawn = true;
+  anna.from_round = 2;
+  anna.until_round = 5;
+  in_transaction([&] { return database_->update_entry(anna); });
   EXPECT_THAT(database_->entries("demo").value(), ElementsAre(bob, anna));
 }
 

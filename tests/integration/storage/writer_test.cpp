@@ -253,8 +253,8 @@ class FullDisk final : public Database {
   Expected<void> add_entry(const EntryRecord& entry) override {
     return database_->add_entry(entry);
   }
-  Expected<void> withdraw_entry(std::string_view id, AgentId agent) override {
-    return database_->withdraw_entry(id, agent);
+  Expected<void> update_entry(const EntryRecord& entry) override {
+    return database_->update_entry(entry);
   }
   Expected<void> add_match(const MatchRecord& match) override {
     return database_->add_match(match);

@@ -23,6 +23,14 @@ FormatSettings format_of(FormatKind kind) {
   return format;
 }
 
+MatchResult result_of(const std::vector<double>& first_scores) {
+  MatchResult result;
+  for (const double score : first_scores) {
+    result.games.push_back({static_cast<std::uint32_t>(result.games.size()), score});
+  }
+  return result;
+}
+
 // Plays a tournament: in each step one of the known matches that are not over ends.
 class Play {
  public:
@@ -54,6 +62,12 @@ class Play {
     now_ = schedule(format_, field_, happened_, now_);
   }
 
+  std::size_t enter_late(std::uint32_t round) {
+    field_.push_back({.from = round});
+    now_ = schedule(format_, field_, happened_, now_);
+    return field_.size() - 1;
+  }
+
   [[nodiscard]] const Schedule& now() const { return now_; }
   [[nodiscard]] const Schedule& before() const { return before_; }
   [[nodiscard]] Schedule from_scratch() const { return schedule(format_, field_, happened_); }
@@ -63,10 +77,14 @@ class Play {
  private:
   MatchResult result() {
     MatchResult result;
-    for (int game = 0; game < 3; ++game) {
-      result.first_scores.push_back(random_() % 20 == 0 ? 0.5 : random_() % 2 == 0 ? 1 : 0);
+    const bool was_played = random_() % 25 != 0;
+    for (std::uint32_t game = 0; game < 3; ++game) {
+      result.games.push_back({game,
+                              random_() % 20 == 0  ? 0.5
+                              : random_() % 2 == 0 ? 1.0
+                                                   : 0.0,
+                              was_played});
     }
-    result.was_played = random_() % 25 != 0;
     return result;
   }
 
@@ -133,7 +151,94 @@ TEST(FormatProperty, WhoHasWithdrawnGetsNoMatchesThatHadNotBegun) {
   }
 }
 
-// By entry, matches lost in elimination (drawn ones are played again).
+TEST(FormatProperty, ALateEntryPlaysFromItsRoundAndChangesNoRoundBefore) {
+  for (const FormatKind kind : {FormatKind::swiss, FormatKind::ladder}) {
+    for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+      Play play(kind, 5 + seed % 4, seed);
+      for (std::uint64_t i = 0; i < seed % 4 && play.step(); ++i) {
+      }
+      const auto round = late_round(kind, play.now());
+      ASSERT_TRUE(round);
+      const auto before = play.now().pairings;
+      const std::uint32_t rounds = play.now().rounds;
+      const std::size_t late = play.enter_late(*round);
+      ASSERT_EQ(play.now().pairings, before);
+      bool has_played = false;
+      while (play.step()) {
+        ASSERT_TRUE(same_pairings(play.from_scratch(), play.now())) << name(kind) << ' ' << seed;
+        for (const Pairing& pairing : play.now().pairings) {
+          if (index(pairing.first) == late || index(pairing.second) == late) {
+            ASSERT_GE(pairing.round, *round);
+            has_played = true;
+          }
+        }
+      }
+      EXPECT_TRUE(play.now().is_complete);
+      EXPECT_EQ(play.now().rounds, rounds) << "nobody makes it longer by coming late";
+      EXPECT_FALSE(late_round(kind, play.now()));
+      EXPECT_TRUE(has_played) << name(kind) << ' ' << seed;
+    }
+  }
+}
+
+TEST(EliminationProperty, ADrawnGameIsPlayedAgainOnceAndThenALotDecides) {
+  FormatSettings format;
+  format.kind = FormatKind::single_elimination;
+  std::size_t better = 0;
+  for (format.seed = 1; format.seed <= 64; ++format.seed) {
+    const std::vector<EntrySpan> field(2);
+    Happened happened;
+    for (std::uint32_t attempt = 0; attempt < 2; ++attempt) {
+      const Schedule now = schedule(format, field, happened);
+      ASSERT_EQ(now.pairings.size(), attempt + 1);
+      ASSERT_TRUE(now.lots.empty());
+      happened.begun.insert(attempt);
+      happened.results[attempt] = {{{0, 0.5, true}}};
+    }
+    const Schedule now = schedule(format, field, happened);
+    EXPECT_EQ(now.pairings.size(), 2U);
+    EXPECT_NE(now.pairings[0].first, now.pairings[1].first) << "the break is turned round";
+    EXPECT_TRUE(now.is_complete);
+    ASSERT_EQ(now.lots.size(), 1U);
+    EXPECT_EQ(now.places[index(now.lots[0].winner)], 0U);
+    EXPECT_EQ(now.places[index(now.lots[0].loser)], 1U);
+    EXPECT_EQ(schedule(format, field, happened).lots, now.lots);
+    better += index(now.lots[0].winner) == 0 ? 1 : 0;
+  }
+  EXPECT_GT(better, 16U);
+  EXPECT_LT(better, 48U);
+}
+
+TEST(EliminationProperty, ALevelMatchWithoutADrawnGameIsPlayedEightTimesAtMost) {
+  FormatSettings format;
+  format.kind = FormatKind::double_elimination;
+  Happened happened;
+  for (std::uint32_t attempt = 0; attempt < 8; ++attempt) {
+    ASSERT_TRUE(schedule(format, std::vector<EntrySpan>(2), happened).lots.empty());
+    happened.begun.insert(attempt);
+    happened.results[attempt] = {{{0, 1, true}, {1, 0, true}}};
+  }
+  EXPECT_EQ(schedule(format, std::vector<EntrySpan>(2), happened).lots.size(), 1U);
+}
+
+TEST(SprtProperty, PairsThatWereNotBothPlayedDoNotCount) {
+  FormatSettings format;
+  format.kind = FormatKind::sprt;
+  format.rounds = 3;
+  const std::vector<EntrySpan> field(2);
+  Happened happened;
+  for (std::uint32_t match = 0; match < 3; ++match) {
+    happened.begun.insert(match);
+  }
+  happened.results[0] = {{{0, 1, true}, {1, 1, false}, {2, 1, true}, {3, 0, true}}};
+  happened.results[1] = {{{1, 1, true}, {2, 0, true}, {3, 1, true}}};  // 0 could not be played
+  happened.results[2] = {{{0, 1, false}, {1, 1, false}, {2, 1, false}, {3, 0, false}}};
+  const Schedule now = schedule(format, field, happened);
+  EXPECT_TRUE(now.is_complete);
+  EXPECT_EQ(now.sprt->pairs, 2U);
+}
+
+// By entry, matches lost in elimination (level ones are played again, then there is a lot).
 std::vector<std::size_t> losses(const Play& play, std::size_t entries) {
   std::vector<std::size_t> lost(entries, 0);
   for (const Pairing& pairing : play.now().pairings) {
@@ -142,6 +247,9 @@ std::vector<std::size_t> losses(const Play& play, std::size_t entries) {
     if (lead != 0) {
       ++lost[index(lead > 0 ? pairing.second : pairing.first)];
     }
+  }
+  for (const Lot& lot : play.now().lots) {
+    ++lost[index(lot.loser)];
   }
   return lost;
 }
@@ -208,7 +316,7 @@ TEST(LadderProperty, NeighboursByRatingMeetAndWinnersRise) {
     for (const Pairing& pairing : now.pairings) {
       // The later entry always wins.
       const bool first_wins = index(pairing.first) > index(pairing.second);
-      happened.results[pairing.number] = {{first_wins ? 1.0 : 0.0}, true};
+      happened.results[pairing.number] = result_of({first_wins ? 1.0 : 0.0});
     }
     now = schedule(format, field, happened);
   }
@@ -233,14 +341,14 @@ TEST(SprtSchedule, EndsWhenTheTestDecidesInTheOrderOfTheScheduleWhateverEndsFirs
       const bool one_wins = random() % 10 < 7;
       scores.push_back(one_wins != turned ? 1 : 0);
     }
-    in_order.results[number] = {scores, true};
+    in_order.results[number] = result_of(scores);
     if (schedule(format, field, in_order).is_complete) {
       break;
     }
   }
   with_later_ones = in_order;
   for (std::uint32_t later = 0; later < 5; ++later) {
-    with_later_ones.results[static_cast<std::uint32_t>(matches) + 1 + later] = {{0, 0}, true};
+    with_later_ones.results[static_cast<std::uint32_t>(matches) + 1 + later] = result_of({0, 0});
   }
   const Schedule one = schedule(format, field, in_order);
   const Schedule two = schedule(format, field, with_later_ones);

@@ -29,7 +29,11 @@ class FakeHost final : public MatchHost {
   std::vector<TournamentCard> tournaments() const override { return {*stored}; }
   void enter(const TournamentEntry& entry) override { entered.push_back(entry); }
   std::vector<TournamentEntry> entries(const std::string&) const override { return entered; }
+  void set_intake(const std::string&, const Intake& now) override { intake = now; }
   void start_match(const MatchOrder& order) override { orders.push_back(order); }
+  void cancel_match(const std::string&, std::uint32_t pairing) override {
+    cancelled.push_back(pairing);
+  }
   std::vector<MatchOutcome> finished_matches(const std::string&) const override { return finished; }
   std::vector<MatchOutcome> unfinished_matches(const std::string&) const override {
     return unfinished;
@@ -39,6 +43,18 @@ class FakeHost final : public MatchHost {
   }
   void on_game_over(std::function<void(const MatchOrder&, const GameOutcome&)> callback) override {
     game_over_ = std::move(callback);
+  }
+  void on_entries_changed(std::function<void(const std::string&)> callback) override {
+    entries_changed_ = std::move(callback);
+  }
+  // Somebody who had entered leaves.
+  void withdraw(const std::string& name) {
+    for (TournamentEntry& entry : entered) {
+      if (entry.name == name) {
+        entry.until_round = intake.next_round;
+      }
+    }
+    entries_changed_("cup");
   }
   void announce_end(const std::string&, const std::vector<protocol::StandingRow>& rows) override {
     announced = rows;
@@ -64,13 +80,16 @@ class FakeHost final : public MatchHost {
 
   std::optional<TournamentCard> stored;
   std::vector<TournamentEntry> entered;
+  Intake intake;
   std::vector<MatchOrder> orders;
+  std::vector<std::uint32_t> cancelled;
   std::size_t played = 0;
   std::vector<MatchOutcome> finished;
   std::vector<MatchOutcome> unfinished;
   std::vector<protocol::StandingRow> announced;
 
  private:
+  std::function<void(const std::string&)> entries_changed_;
   std::function<void(const MatchOutcome&)> match_over_;
   std::function<void(const MatchOrder&, const GameOutcome&)> game_over_;
 };
@@ -268,7 +287,32 @@ TEST_F(TournamentDriverTest, AnSprtStopsWhenItIsDecided) {
   }
   EXPECT_LT(host_.played, 100U);
   EXPECT_EQ(host_.played, host_.orders.size());
-  EXPECT_THAT(view_->note.value_or(""), HasSubstr("H1 accepted"));
+  EXPECT_THAT(view_->remarks, HasSubstr("H1 accepted"));
+}
+
+TEST_F(TournamentDriverTest, AnOrderOfWhoLeavesIsTakenBackUnlessItsMatchHasBegun) {
+  begin();
+  ASSERT_THAT(host_.orders, SizeIs(1));
+  EXPECT_THAT(host_.orders[0].agents, ElementsAre("mine", "Anna"));
+  host_.withdraw("Anna");
+  EXPECT_THAT(host_.cancelled, ElementsAre(0));
+  ASSERT_THAT(host_.orders, SizeIs(2));
+  EXPECT_THAT(host_.orders[1].agents, ElementsAre("light", "mine"));
+  host_.played = 1;
+  host_.play_next(0);
+  EXPECT_TRUE(view_->over);
+  EXPECT_THAT(host_.announced, SizeIs(3));
+}
+
+TEST_F(TournamentDriverTest, AMatchThatHasBegunIsPlayedToItsEndThoughOneOfItLeaves) {
+  begin();
+  host_.unfinished.push_back({"cup", host_.orders[0].pairing, MatchId{1}, {}});
+  host_.withdraw("Anna");
+  EXPECT_THAT(host_.cancelled, IsEmpty());
+  EXPECT_THAT(host_.orders, SizeIs(1));
+  host_.unfinished.clear();
+  host_.play_next(0);
+  EXPECT_FALSE(view_->over) << "light and mine have still to meet";
 }
 
 TEST_F(TournamentDriverTest, AnotherTournamentOfTheSameNameIsRefused) {
