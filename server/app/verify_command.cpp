@@ -10,6 +10,7 @@
 
 #include "physics/version.hpp"
 #include "server/app/commands.hpp"
+#include "server/ledger/check.hpp"
 #include "server/match/verify.hpp"
 #include "server/storage/sqlite_database.hpp"
 
@@ -64,8 +65,16 @@ int verify_database(const VerifyArguments& arguments) {
     fmt::print(stderr, "poolhall verify: {}\n", report.error().reason);
     return cannot_read;
   }
+  const auto tournaments = arguments.game ? storage::Expected<std::vector<std::string>>{}
+                                          : ledger::check_tournaments(**reader);
+  if (!tournaments) {
+    fmt::print(stderr, "poolhall verify: {}\n", tournaments.error().reason);
+    return cannot_read;
+  }
+  for (const std::string& difference : *tournaments)
+    fmt::print("{}\n", difference);
   print_summary(arguments.database, *report);
-  if (!report->same())
+  if (!report->same() || !tournaments->empty())
     return differs;
   return report->other_version > 0 ? other_version : all_same;
 }
@@ -76,7 +85,8 @@ void add_verify_command(CLI::App& app, int& exit_code) {
   auto arguments = std::make_shared<VerifyArguments>();
   CLI::App* command = app.add_subcommand(
       "verify",
-      "Run every stored shot again, recompute its noise, judge it again and check the checksums.\n"
+      "Run every stored shot again, recompute its noise, judge it again, check the checksums, and\n"
+      "whether schedules and tables of tournaments are those that the games give.\n"
       "Exit code: 0 all the same, 1 something differs, 2 cannot be read, 3 shots of another\n"
       "physics version (chain and rulings checked only)");
   command->add_option("--db", arguments->database, "database file")->capture_default_str();
