@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "clients/bots/aiming.hpp"
+#include "clients/bots/pot_strokes.hpp"
 #include "clients/bots/random_bot.hpp"
 #include "clients/bots/stroke.hpp"
 
@@ -144,18 +145,6 @@ std::vector<Line> open_lines(const client::TurnView& turn) {
                            [](const Line& line) { return line.line.chance; });
   lines.resize(std::min(lines.size(), most_lines));
   return lines;
-}
-
-// The cue speed that just brings the object ball to the pocket: it starts without spin, slides
-// until it has 5/7 of its speed, and rolls; the cue ball loses to the cloth on the way. With (3) a
-// centre hit gives the ball (1 + e_t) / (1 + m/M) of the cue's speed.
-double least_speed(const PotLine& line, const physics::Materials& m) {
-  const double per_square = 12 / (49 * m.mu_slide * m.gravity) + 25 / (98 * m.mu_roll * m.gravity);
-  const double object_speed = std::sqrt(line.object_run / per_square);
-  const double at_contact = object_speed / line.cos_cut;
-  const double at_start =
-      std::sqrt(at_contact * at_contact + 2.8 * m.mu_roll * m.gravity * line.cue_run);
-  return at_start * (1 + m.ball_mass / m.cue_mass) / (1 + m.tip_restitution);
 }
 
 void add_pots_on(const Line& line, const client::TurnView& turn, Rehearsal& rehearsal,

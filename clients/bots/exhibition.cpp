@@ -1,8 +1,10 @@
 #include "clients/bots/exhibition.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "clients/bots/dice.hpp"
 #include "physics/simulator.hpp"
@@ -23,7 +25,10 @@ class Exhibition {
     const std::string name = "exhibition-" + std::to_string(settings.seed);
     for (const rules::Seat seat : {rules::Seat::first, rules::Seat::second}) {
       const std::size_t i = rules::index(seat);
-      infos_[i] = {name, seat, "", settings.game.rules, table_, materials_, noise_};
+      infos_[i] = {name, seat, "", settings.game.rules, table_, materials_, std::nullopt};
+      if (!settings.hides_noise) {
+        infos_[i].noise = noise_;
+      }
       players_[i] = makers[i](infos_[i]);
     }
   }
@@ -36,6 +41,8 @@ class Exhibition {
     if (!state_.result) {
       game_.fault = "more than " + std::to_string(settings_.most_turns) + " turns";
     }
+    const std::optional<rules::Seat> winner = state_.result ? state_.result->winner : std::nullopt;
+    game_.break_and_run = winner && game_.seats[rules::index(rules::other(*winner))].shots == 0;
     game_.result =
         state_.result.value_or(rules::GameResult{std::nullopt, rules::EndReason::void_game});
     return game_;
@@ -46,6 +53,10 @@ class Exhibition {
     const rules::Seat seat = state_.to_move;
     for (std::uint32_t refusals = 0; refusals < most_refusals; ++refusals) {
       const client::Move move = ask(seat, refusals);
+      if (settings_.game_time && game_.seats[rules::index(seat)].thinking >= *settings_.game_time) {
+        state_ = rules::ended(state_, {rules::other(seat), rules::EndReason::timeout});
+        return;
+      }
       if (std::visit([&](const auto& chosen) { return take(seat, chosen); }, move)) {
         return;
       }
@@ -59,11 +70,23 @@ class Exhibition {
   client::Move ask(rules::Seat seat, std::uint32_t refusals) {
     const std::size_t i = rules::index(seat);
     const auto begin = std::chrono::steady_clock::now();
-    client::Move move = players_[i]->choose({infos_[i], state_, {}, refusals});
+    client::Move move = players_[i]->choose({infos_[i], state_, clock_of(seat), refusals, shots_});
     const std::chrono::nanoseconds thought = std::chrono::steady_clock::now() - begin;
     game_.seats[i].thinking += thought;
     game_.seats[i].longest = std::max(game_.seats[i].longest, thought);
     return move;
+  }
+
+  [[nodiscard]] client::Clock clock_of(rules::Seat seat) const {
+    if (!settings_.game_time) {
+      return {};
+    }
+    const auto left = [this](rules::Seat of) {
+      const auto used = std::chrono::duration_cast<std::chrono::microseconds>(
+          game_.seats[rules::index(of)].thinking);
+      return std::max(*settings_.game_time - used, std::chrono::microseconds{0});
+    };
+    return {.own = left(seat), .opponent = left(rules::other(seat))};
   }
 
   // Each says whether the move was accepted.
@@ -91,6 +114,7 @@ class Exhibition {
     }
     const auto executed =
         protocol::executed_shot(shot.stroke, noise_, deviates(seat), balls, table_, materials_);
+    shots_.push_back({shot.stroke, executed.params, executed.moved});
     const auto simulation = physics::simulate(
         physics::Scene<double>{table_, materials_, balls, protocol::to_physics(executed.params)},
         {});
@@ -119,10 +143,14 @@ class Exhibition {
     return true;
   }
 
-  static void record(SeatRecord& record, rules::Seat seat, const rules::Ruling& ruling) {
+  void record(SeatRecord& record, rules::Seat seat, const rules::Ruling& ruling) {
     ++record.shots;
+    record.visits += last_shooter_ == seat ? 0U : 1U;
+    last_shooter_ = seat;
     record.fouls += ruling.fouls.empty() ? 0U : 1U;
-    record.pots += ruling.legal && ruling.next.to_move == seat ? 1U : 0U;
+    const bool goes_on =
+        ruling.next.result ? ruling.next.result->winner == seat : ruling.next.to_move == seat;
+    record.pots += ruling.legal && goes_on ? 1U : 0U;
   }
 
   ExhibitionSettings settings_;
@@ -132,6 +160,8 @@ class Exhibition {
   rules::GameState state_;
   std::array<client::GameInfo, 2> infos_;
   std::array<std::unique_ptr<client::Player>, 2> players_;
+  std::vector<client::SeenShot> shots_;
+  std::optional<rules::Seat> last_shooter_{};
   ExhibitionGame game_;
 };
 

@@ -1,4 +1,4 @@
-// Games inside one process, without server, sockets and clocks: for measuring how strong a bot is.
+// Games inside one process, without server and sockets: for measuring how strong a bot is.
 // A shot goes the way that it goes on the server: prepared, noise added, simulated, judged.
 //
 //   ExhibitionGame game = play_exhibition({.seed = 7},
@@ -7,6 +7,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <optional>
@@ -21,18 +22,22 @@ struct ExhibitionSettings {
   std::string table = "olympiad";
   std::string materials = "olympiad";
   std::string noise = "olympiad";
-  std::uint64_t seed = 1;  // of the noise
+  bool hides_noise = false;  // the players are not told
+  std::uint64_t seed = 1;    // of the noise
   // Unset: drawn from the seed. Of a seat's shot with this number, from 1; asked for when the shot
   // has been chosen, and may block.
   std::function<physics::ShotDeviates(rules::Seat, std::uint32_t)> deviates{};
   std::uint32_t most_turns = 2000;
+  // Of each player, on the wall; unset: nobody's time runs.
+  std::optional<std::chrono::microseconds> game_time{};
 };
 
 struct SeatRecord {
   std::uint32_t shots = 0;
   std::uint32_t refused = 0;
   std::uint32_t fouls = 0;
-  std::uint32_t pots = 0;  // shots after which the player had the table again
+  std::uint32_t pots = 0;    // shots after which the player had the table again, or had won
+  std::uint32_t visits = 0;  // runs of shots without one of the opponent's between them
   std::chrono::nanoseconds thinking{};
   std::chrono::nanoseconds longest{};  // over one move
 };
@@ -42,6 +47,7 @@ struct ExhibitionGame {
   std::string fault{};  // why the game is void
   std::uint32_t turns = 0;
   std::array<SeatRecord, 2> seats{};  // by seat
+  bool break_and_run = false;         // the opponent of the winner never had a shot
 };
 
 // Ends with EndReason::void_game with `fault` if the turns run out or the simulator or the

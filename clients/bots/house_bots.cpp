@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "clients/bots/greedy_bot.hpp"
+#include "clients/bots/planner_bot.hpp"
 #include "clients/bots/random_bot.hpp"
 
 namespace poolhall::bots {
@@ -21,11 +22,18 @@ std::optional<client::PlayerFactory> house_bot(std::string_view name,
       return std::make_unique<GreedyBot>(info, greedy);
     };
   }
+  if (name == "planner") {
+    return [settings](const client::GameInfo& info) -> std::unique_ptr<client::Player> {
+      return std::make_unique<PlannerBot>(
+          info, PlannerSettings{
+                    .seed = settings.seed, .effort = settings.effort, .cores = settings.cores});
+    };
+  }
   return std::nullopt;
 }
 
 std::vector<std::string> house_bot_names() {
-  return {"random", "greedy"};
+  return {"random", "greedy", "planner"};
 }
 
 }  // namespace poolhall::bots

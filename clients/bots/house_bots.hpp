@@ -15,8 +15,10 @@ namespace poolhall::bots {
 
 struct HouseBotSettings {
   std::uint64_t seed = 1;
-  // Of greedy, GreedySettings::effort; unset: its own default.
+  // Of greedy, GreedySettings::effort, and of planner, PlannerSettings::effort; unset: their own
+  // defaults.
   std::optional<std::uint64_t> effort{};
+  unsigned cores = 1;  // that one move of planner may use
 };
 
 // Nothing if there is no house bot of that name.

@@ -43,7 +43,8 @@ Mouths mouths(const physics::Jaws& jaws, double radius) {
           jaws.side.width / 2 - radius};
 }
 
-// Distance of `p` from the segment from `from` to `to`.
+}  // namespace
+
 double distance_to_segment(Point p, Point from, Point to) {
   const Point along = to - from;
   const double square = dot(along, along);
@@ -93,8 +94,6 @@ double chance_of(const PotLine& line, const PocketTarget& pocket, double radius,
   const double half = pocket.half_width * dot(line.course, pocket.outward);
   return std::erf(half / (spread * std::numbers::sqrt2));
 }
-
-}  // namespace
 
 std::vector<PocketTarget> pocket_targets(const physics::Table& table, double radius) {
   Mouths m;

@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -54,6 +55,18 @@ struct PotLine {
   double cos_cut = 1;
   double chance = 0;  // 0..1, estimate under the noise of the heading
 };
+
+// The line of `object` into `pocket` for the cue ball at `cue`, other balls left out; nothing where
+// the ghost ball has no room or the cut or the entry is too thin. `chance` is not set. Of the
+// layout only the table's measures count.
+[[nodiscard]] std::optional<PotLine> line_to(const Layout& layout, Point cue,
+                                             const physics::Ball<double>& object,
+                                             const PocketTarget& pocket);
+// Its chance where `aim_error` is the standard deviation of the heading in rad.
+[[nodiscard]] double chance_of(const PotLine& line, const PocketTarget& pocket, double radius,
+                               double aim_error);
+// Distance of `p` from the segment from `from` to `to`.
+[[nodiscard]] double distance_to_segment(Point p, Point from, Point to);
 
 // All open lines for the cue ball at `cue`, best first. `aim_error` is the standard deviation of
 // the heading in rad.

@@ -173,6 +173,11 @@ std::optional<End> Agent::reply_came(const protocol::ReplyMessage& message) {
       }
       return std::nullopt;
     case Method::shot:
+      if (const auto* reply =
+              std::get_if<protocol::ShotReply<protocol::Received>>(&message.reply)) {
+        seen(reply->shot);
+      }
+      [[fallthrough]];
     case Method::decide:
     case Method::concede:
       if (const auto desk = desks_.find(*in_flight->game); desk != desks_.end()) {
@@ -365,6 +370,17 @@ std::optional<End> Agent::notified(const protocol::GameTurn<protocol::Received>&
   const Clock clock{std::chrono::milliseconds(turn.clock.own_ms),
                     std::chrono::milliseconds(turn.clock.opponent_ms)};
   act(desk->second, desk->second.turn_came({{turn.turn, turn.refusals}, turn.state, clock}));
+  return std::nullopt;
+}
+
+void Agent::seen(const protocol::GameShot<protocol::Received>& shot) {
+  if (const auto desk = desks_.find(shot.game); desk != desks_.end()) {
+    desk->second.shot_seen({shot.intended, shot.executed, shot.moved});
+  }
+}
+
+std::optional<End> Agent::notified(const protocol::GameShot<protocol::Received>& shot) {
+  seen(shot);
   return std::nullopt;
 }
 

@@ -34,7 +34,7 @@ struct AgentSettings {
   std::optional<protocol::Hex256> token{};  // unset: one is made
   protocol::ClientInfo software{"poolhall-cpp", "1"};
   protocol::EventDetail detail = protocol::EventDetail::summary;
-  OfferPolicy offers = OfferPolicy::accept;           // of other agents' challenges
+  OfferPolicy offers = OfferPolicy::accept;  // of other agents' challenges
   NoisePart noise = NoisePart::added;
   std::vector<protocol::Challenge> challenges{};      // made once logged in
   std::vector<protocol::TournamentId> tournaments{};  // joined once logged in
@@ -117,6 +117,7 @@ class Agent {
   [[nodiscard]] Result notified(const protocol::GameStart<protocol::Received>& start);
   [[nodiscard]] Result notified(const protocol::GameSnapshot<protocol::Received>& snapshot);
   [[nodiscard]] Result notified(const protocol::GameTurn<protocol::Received>& turn);
+  [[nodiscard]] Result notified(const protocol::GameShot<protocol::Received>& shot);
   [[nodiscard]] Result notified(const protocol::GameTurnLost<protocol::Received>& lost);
   [[nodiscard]] Result notified(const protocol::GameOver& over);
   [[nodiscard]] Result notified(const protocol::MatchOver& over);
@@ -129,6 +130,7 @@ class Agent {
   [[nodiscard]] Result notified(const Other&) {
     return std::nullopt;
   }
+  void seen(const protocol::GameShot<protocol::Received>& shot);
   void add_to_next_noise();
   void reveal(const protocol::GameTerms<protocol::Received>& terms);
   void open_desk(const protocol::GameTerms<protocol::Received>& terms);

@@ -10,6 +10,7 @@
 #include <boost/asio/use_awaitable.hpp>
 
 #include <algorithm>
+#include <chrono>
 #include <exception>
 #include <random>
 #include <utility>
@@ -95,9 +96,15 @@ class Client::Life : public Outside {
   }
 
   void think(const GameInfo& info, std::shared_ptr<Player> player, const TurnTask& task) override {
-    asio::post(thinkers_, [this, info, player = std::move(player), task] {
+    asio::post(thinkers_, [this, info, player = std::move(player), task,
+                           asked = std::chrono::steady_clock::now()] {
       try {
-        Move move = player->choose({info, task.state, task.clock, task.key.refusals});
+        // It may have waited for another game's move to be chosen.
+        Clock clock = task.clock;
+        clock.own -= std::chrono::duration_cast<std::chrono::microseconds>(
+            std::chrono::steady_clock::now() - asked);
+        clock.own = std::max(clock.own, std::chrono::microseconds{0});
+        Move move = player->choose({info, task.state, clock, task.key.refusals, task.shots});
         asio::post(io_, [this, game = game_id(info), key = task.key, move = std::move(move)] {
           agent_.move_chosen(game, key, move);
         });

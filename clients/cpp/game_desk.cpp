@@ -12,6 +12,7 @@ GameDesk::GameDesk(GameInfo info, std::unique_ptr<Player> player)
 GameDesk::Step GameDesk::turn_came(TurnTask task) {
   const bool is_same = task_ && task_->key == task.key;
   task_ = std::move(task);
+  task_->shots = shots_;
   if (!is_same) {
     answer_.reset();
   }
@@ -79,13 +80,18 @@ protocol::GameId game_id(const GameInfo& info) {
 }
 
 GameInfo game_info(const protocol::GameTerms<protocol::Received>& terms) {
-  return {.game = std::to_string(protocol::number(terms.game)),
-          .seat = terms.seat,
-          .opponent = terms.opponent,
-          .rules = terms.rules,
-          .table = terms.table,
-          .materials = terms.physics,
-          .noise = terms.noise};
+  GameInfo info{.game = std::to_string(protocol::number(terms.game)),
+                .seat = terms.seat,
+                .opponent = terms.opponent,
+                .rules = terms.rules,
+                .table = terms.table,
+                .materials = terms.physics,
+                .noise = terms.noise};
+  info.increment = std::chrono::milliseconds(terms.clock.increment_ms);
+  if (terms.clock.shot_ms) {
+    info.shot_cap = std::chrono::milliseconds(*terms.clock.shot_ms);
+  }
+  return info;
 }
 
 }  // namespace poolhall::client

@@ -11,6 +11,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <vector>
 
 #include "clients/cpp/player.hpp"
 #include "protocol/messages.hpp"
@@ -29,6 +30,7 @@ struct TurnTask {
   TurnKey key;
   rules::GameState state;
   Clock clock;
+  std::vector<SeenShot> shots{};  // of the game so far
 };
 
 class GameDesk {
@@ -48,6 +50,8 @@ class GameDesk {
   [[nodiscard]] Step move_chosen(TurnKey key, const Move& move);
   // The server refused the answer and the turn goes on: think again.
   [[nodiscard]] Step refused(TurnKey key);
+  // The server told of a shot, this player's or the other's.
+  void shot_seen(const SeenShot& shot) { shots_.push_back(shot); }
   // The server has stored the answer, or the turn is over for another reason.
   void turn_over(std::uint32_t turn);
 
@@ -64,6 +68,7 @@ class GameDesk {
   std::shared_ptr<Player> player_;  // shared with the thread that thinks
   std::optional<TurnTask> task_{};
   std::optional<protocol::Request> answer_{};  // to task_
+  std::vector<SeenShot> shots_{};
   bool is_thinking_ = false;
 };
 

@@ -17,6 +17,7 @@
 #include <functional>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 
@@ -35,11 +36,21 @@ struct GameInfo {
   physics::Table table{};
   physics::Materials materials{};
   std::optional<protocol::NoiseParams> noise{};  // unset: the tournament does not tell
+  std::chrono::microseconds increment{};         // added to the clock after each finished turn
+  std::optional<std::chrono::microseconds> shot_cap{};  // a longer turn is lost
 };
 
+// What both have left when the player is asked.
 struct Clock {
   std::chrono::microseconds own{std::chrono::minutes{10}};
   std::chrono::microseconds opponent{std::chrono::minutes{10}};
+};
+
+// A shot that either player has made, as far as this client was told.
+struct SeenShot {
+  protocol::ShotParams intended{};
+  protocol::ShotParams executed{};
+  bool moved = false;  // noise had made it impossible: the nearest possible shot was played
 };
 
 // A turn of this player. The references hold as long as the call to Player::choose.
@@ -47,7 +58,8 @@ struct TurnView {
   const GameInfo& info;
   const rules::GameState& state;
   Clock clock{};
-  std::uint32_t refusals = 0;  // of this turn so far
+  std::uint32_t refusals = 0;         // of this turn so far
+  std::span<const SeenShot> shots{};  // of the game so far, both players'
 };
 
 struct Shot {

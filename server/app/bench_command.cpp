@@ -13,6 +13,7 @@
 #include "tests/bench/benchmarks.hpp"
 #include "tests/bench/server/server_bench.hpp"
 #include "tests/bench/server/spectators_bench.hpp"
+#include "tests/bench/strength.hpp"
 #include "tests/fault/harness/bad_run.hpp"
 #include "tests/fault/harness/kill_run.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -131,6 +132,50 @@ void add_spectators_bench(CLI::App& parent, int& exit_code) {
   });
 }
 
+void add_strength_bench(CLI::App& parent, int& exit_code) {
+  auto options = std::make_shared<bench::StrengthOptions>();
+  CLI::App* command = parent.add_subcommand(
+      "strength", "one house bot against another in pairs of games with the same rack");
+  command->add_option("--one", options->one, "the bot to be measured")->capture_default_str();
+  command->add_option("--other", options->other, "its opponent")->capture_default_str();
+  command->add_option("--games", options->games, "an even number")->capture_default_str();
+  command
+      ->add_option("--clock", options->clock,
+                   "seconds of each player in a game, on the wall; 0: no clock runs")
+      ->check(CLI::Range(0.0, 86'400.0));
+  command
+      ->add_option("--noise", options->noise, "none, low, olympiad or high; announced to the bots")
+      ->capture_default_str();
+  command->add_flag("--hidden", options->hides_noise, "do not announce the noise");
+  command->add_option("--table", options->table, "preset of the table")->capture_default_str();
+  command->add_option("--materials", options->materials, "preset of the materials")
+      ->capture_default_str();
+  command
+      ->add_option_function<std::string>(
+          "--rules",
+          [options](const std::string& name) {
+            const auto rules = rules::rule_set(name);
+            if (!rules) {
+              throw CLI::ValidationError("--rules", "expected 8-ball or 9-ball, got " + name);
+            }
+            options->rules = *rules;
+          },
+          "8-ball or 9-ball")
+      ->default_str("8-ball");
+  command->add_option("--effort", options->effort,
+                      "of --one: simulated events a shot, instead of what its clock allows");
+  command->add_option("--cores", options->cores, "that one move of planner may use")
+      ->check(CLI::Range(1U, 256U))
+      ->capture_default_str();
+  command->add_option("--at-once", options->at_once, "games played at the same time")
+      ->check(CLI::Range(1U, 256U))
+      ->capture_default_str();
+  command->add_option("--seed", options->seed, "of racks and noise")->capture_default_str();
+  command->callback([options, &exit_code] {
+    exit_code = guarded([&] { return bench::bench_strength(*options, std::cout); });
+  });
+}
+
 void add_faults_bench(CLI::App& parent, int& exit_code) {
   auto options = std::make_shared<FaultOptions>();
   CLI::App* command = parent.add_subcommand(
@@ -182,6 +227,7 @@ void add_bench_command(CLI::App& app, int& exit_code) {
                 "one bit of every stored value, and whether verify finds it", bench::bench_tamper);
   add_benchmark(*command, exit_code, "lean", "what each omission saves", bench::bench_lean);
   add_faults_bench(*command, exit_code);
+  add_strength_bench(*command, exit_code);
   add_server_bench(*command, exit_code);
   add_spectators_bench(*command, exit_code);
   const BenchCommand speed =

@@ -4,11 +4,13 @@
 #include <spdlog/sinks/stdout_color_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <thread>
 #include <utility>
 
 #include <sys/prctl.h>
@@ -31,6 +33,7 @@ struct BotArguments {
   std::uint64_t seed = 1;
   std::optional<std::uint64_t> effort;
   unsigned threads = 1;
+  unsigned cores = 0;       // 0: what there are, shared by the threads
   std::int64_t parent = 0;  // 0: nobody's child in particular
 };
 
@@ -86,6 +89,12 @@ client::ClientOptions client_options(const BotArguments& arguments, const HostPo
   return options;
 }
 
+unsigned cores_a_move(const BotArguments& arguments) {
+  return arguments.cores > 0
+             ? arguments.cores
+             : std::max(1U, std::thread::hardware_concurrency() / std::max(1U, arguments.threads));
+}
+
 int run_bot(const BotArguments& arguments) {
   const auto logger = spdlog::stderr_color_mt("bot");
   const auto server = host_port(arguments.connect);
@@ -97,8 +106,9 @@ int run_bot(const BotArguments& arguments) {
     logger->error("--token: expected 64 hexadecimal digits in lower case");
     return 2;
   }
-  const auto player =
-      bots::house_bot(arguments.bot, {.seed = arguments.seed, .effort = arguments.effort});
+  const auto player = bots::house_bot(
+      arguments.bot,
+      {.seed = arguments.seed, .effort = arguments.effort, .cores = cores_a_move(arguments)});
   if (!player) {
     logger->error("NAME: got \"{}\", expected one of {}", arguments.bot,
                   fmt::join(bots::house_bot_names(), ", "));
@@ -124,7 +134,7 @@ int run_bot(const BotArguments& arguments) {
 void add_bot_command(CLI::App& app, int& exit_code) {
   const auto arguments = std::make_shared<BotArguments>();
   CLI::App* command = app.add_subcommand("bot", "Play as a house bot on a server");
-  command->add_option("NAME", arguments->bot, "The bot: random or greedy")->required();
+  command->add_option("NAME", arguments->bot, "The bot: random, greedy or planner")->required();
   command->add_option("--connect", arguments->connect, "The server's agents' port, HOST:PORT");
   command->add_flag("--tls", arguments->tls, "Connect by TLS");
   command->add_option("--tls-ca", arguments->tls_ca,
@@ -139,9 +149,14 @@ void add_bot_command(CLI::App& app, int& exit_code) {
   command->add_option("--seed", arguments->seed, "The same seed plays the same game")->take_last();
   command
       ->add_option("--effort", arguments->effort,
-                   "Simulated events that a shot of greedy may cost, about")
+                   "Simulated events that a shot of greedy or planner may cost, about")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}));
   command->add_option("--threads", arguments->threads, "Moves chosen at the same time, one a game")
+      ->check(CLI::Range(1U, 256U));
+  command
+      ->add_option("--cores", arguments->cores,
+                   "Cores that planner may use for one move; all there are if left out, shared by "
+                   "--threads")
       ->check(CLI::Range(1U, 256U));
   command->add_option("--parent", arguments->parent,
                       "Process id of the parent; the bot dies with it and logs nothing");

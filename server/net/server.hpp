@@ -48,7 +48,7 @@ struct ServerOptions {
   PagePort page_port = PagePort::as_given;
   StoredTournaments stored_tournaments = StoredTournaments::left_alone;
   std::filesystem::path program = "/proc/self/exe";  // that plays house bots: `program bot NAME`
-  std::vector<std::string> house_bots{"random", "greedy"};  // that may be challenged
+  std::vector<std::string> house_bots{"random", "greedy", "planner"};  // that may be challenged
 };
 
 class Server {
