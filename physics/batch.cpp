@@ -107,7 +107,7 @@ Expected<Outcomes> evaluate(const Scene<double>& scene, const NoiseLevel& noise,
   std::atomic<std::uint64_t> next{0};
   const auto work = [&] {
     EventLoop<double> loop(scene.table, scene.materials);
-    for (std::uint64_t b = next++; b < blocks; b = next++) {
+    for (std::uint64_t b = next++; b < blocks && !(options.stop && options.stop()); b = next++) {
       const std::uint64_t end = std::min(options.samples, (b + 1) * block_size);
       for (std::uint64_t i = b * block_size; i < end; ++i) {
         play_sample(loop, scene, noise, options, i, parts[b]);

@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <functional>
 
 #include "physics/noise.hpp"
 #include "physics/simulator.hpp"
@@ -20,6 +21,9 @@ struct EvaluationOptions {
   unsigned threads = 1;
   std::uint64_t seed = 0;
   SimulationOptions simulation{};
+  // Asked now and then, by any of the threads; after true Outcomes::samples says how many were
+  // played.
+  std::function<bool()> stop{};
 };
 
 struct PocketCounts {
