@@ -19,7 +19,12 @@ function(poolhall_room name)
   if(sources)
     add_library(${target} STATIC ${sources})
     set(scope PUBLIC)
-    target_link_libraries(${target} PRIVATE poolhall_flags ${ROOM_PRIVATE_LIBRARIES})
+    # Whoever links an installed room needs the language, not our warnings and our sources'
+    # libraries; what of a library does have to be linked stands in LIBRARIES.
+    target_compile_features(${target} PUBLIC cxx_std_20)
+    foreach(library IN ITEMS poolhall_flags LISTS ROOM_PRIVATE_LIBRARIES)
+      target_link_libraries(${target} PRIVATE "$<BUILD_INTERFACE:${library}>")
+    endforeach()
   else()
     add_library(${target} INTERFACE)
     set(scope INTERFACE)
