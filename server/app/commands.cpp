@@ -5,6 +5,7 @@ namespace poolhall::app {
 void add_commands(CLI::App& app, int& exit_code) {
   add_bench_command(app, exit_code);
   add_bot_command(app, exit_code);
+  add_conformance_command(app, exit_code);
   add_export_command(app, exit_code);
   add_fairness_command(app, exit_code);
   add_import_command(app, exit_code);

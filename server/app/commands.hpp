@@ -12,6 +12,7 @@ void add_commands(CLI::App& app, int& exit_code);
 
 void add_bench_command(CLI::App& app, int& exit_code);
 void add_bot_command(CLI::App& app, int& exit_code);
+void add_conformance_command(CLI::App& app, int& exit_code);
 void add_export_command(CLI::App& app, int& exit_code);
 void add_fairness_command(CLI::App& app, int& exit_code);
 void add_import_command(CLI::App& app, int& exit_code);
