@@ -55,8 +55,7 @@ Bot::~Bot() {
 void Bot::start(const std::string& server, const std::string& token) {
   // $0 is the log: no quoting of its name can go wrong.
   const std::string script = "exec >>\"$0\" 2>&1\n" + filled_in(command_, server, token);
-  process_ =
-      starter_({"/bin/sh", "-c", script, log_.string()}, environment_with(server, token));
+  process_ = starter_({"/bin/sh", "-c", script, log_.string()}, environment_with(server, token));
   if (!process_) {
     throw std::runtime_error("the bot's process cannot be started");
   }

@@ -21,8 +21,8 @@ void play_position(Host& host, GamePlan plan) {
 
 std::vector<Script> all_scripts() {
   std::vector<Script> all;
-  for (std::vector<Script> part : {session_scripts(), line_scripts(), turn_scripts(),
-                                   return_scripts(), position_scripts()}) {
+  for (std::vector<Script> part :
+       {session_scripts(), line_scripts(), turn_scripts(), return_scripts(), position_scripts()}) {
     all.insert(all.end(), std::make_move_iterator(part.begin()),
                std::make_move_iterator(part.end()));
   }

@@ -133,7 +133,8 @@ void takes_replies_in_any_order(Host& host) {
 
 std::vector<Script> line_scripts() {
   return {
-      {{"unknown-members", "members that the page has not are ignored, in every object", lines_section},
+      {{"unknown-members", "members that the page has not are ignored, in every object",
+        lines_section},
        ignores_members},
       {{"unknown-notifications", "notifications that the page has not are ignored", lines_section},
        ignores_notifications},

@@ -105,9 +105,9 @@ void server_is_full(Host& host) {
   constexpr int too_often = 15;
   HostedGame& game = in_a_game(host);
   host.cut(Cut::close);
-  const int times = host.turn_away(
-      {ErrorCode::server_full, "", "the server has as many connections as it may"},
-      milliseconds{700});
+  const int times =
+      host.turn_away({ErrorCode::server_full, "", "the server has as many connections as it may"},
+                     milliseconds{700});
   comes_back_and_goes_on(host, game);
   if (times > too_often) {
     throw Stop{Verdict::warning, "it connected " + std::to_string(times) +
@@ -143,7 +143,8 @@ std::vector<Script> return_scripts() {
       {{"lost-answer", "the connection closes before the answer was stored: it is sent again",
         "Requests"},
        lost_with_the_answer},
-      {{"lost-reply", "the connection closes after the answer was stored: no other shot under its "
+      {{"lost-reply",
+        "the connection closes after the answer was stored: no other shot under its "
         "shot_id, and the game goes on",
         "Requests"},
        [](Host& host) { lost_with_the_reply(host, Cut::close); }},
@@ -154,7 +155,8 @@ std::vector<Script> return_scripts() {
        lost_while_storing},
       {{"half-a-line", "a line that broke off with its connection is forgotten", "Lines"},
        lost_within_a_line},
-      {{"lost-three-times", "three lost connections in a row, and the game goes on", return_section},
+      {{"lost-three-times", "three lost connections in a row, and the game goes on",
+        return_section},
        lost_again_and_again},
       {{"restart", "shutting_down, no server for a while, a new session: the game goes on",
         return_section},

@@ -61,7 +61,11 @@ void takes_repeated_ends(Host& host) {
   host.cut(Cut::close);
   host.expect_return();
   host.push(first.over());
-  host.push(protocol::MatchOver{first.plan().match, {}, first.plan().opponent, 1, 0,
+  host.push(protocol::MatchOver{first.plan().match,
+                                {},
+                                first.plan().opponent,
+                                1,
+                                0,
                                 {{first.id(), {std::string(64, 'e')}, 20261130, {}}}});
   host.push(protocol::TournamentOver{
       protocol::TournamentId{77}, "cup", {{1, "under-test", 1, 1, 1, 0, 0}}});
@@ -123,8 +127,10 @@ std::vector<Script> session_scripts() {
       {{"two-games", "two games at a time: an answer in each, under its own game and turn",
         session_section},
        plays_two_games},
-      {{"next-game", "after game.over the next game is played", session_section}, plays_on_after_an_end},
-      {{"repeated-ends", "game.over, match.over and tournament.over that are told again change "
+      {{"next-game", "after game.over the next game is played", session_section},
+       plays_on_after_an_end},
+      {{"repeated-ends",
+        "game.over, match.over and tournament.over that are told again change "
         "nothing",
         session_section},
        takes_repeated_ends},

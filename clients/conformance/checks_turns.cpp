@@ -61,8 +61,8 @@ void leaves_a_stale_turn(Host& host) {
   host.hand_turn(game);
   const Answer late = host.answer_of(game);
   host.push(game.lose_turn(rules::FoulCode::shot_time_exceeded));
-  host.refuse(late.id, {ErrorCode::stale_turn, "/params/turn", "got a turn that is over",
-                        game.id()});
+  host.refuse(late.id,
+              {ErrorCode::stale_turn, "/params/turn", "got a turn that is over", game.id()});
   const int before = host.past_answers();
   host.serve_for(milliseconds{300});
   if (host.past_answers() > before + 1) {
@@ -234,10 +234,10 @@ std::vector<Script> turn_scripts() {
        [](Host& host) { tries_again(host, ErrorCode::internal); }},
       {{"retry-paused", "an answer that got paused, which is retryable, is sent again", "Errors"},
        [](Host& host) { tries_again(host, ErrorCode::paused); }},
-      {{"rate-limited", "rate_limited for anything else does not keep it from its turns",
-        "Errors"},
+      {{"rate-limited", "rate_limited for anything else does not keep it from its turns", "Errors"},
        bears_rate_limits},
-      {{"repeated-turn", "game.turn and game.state that come again are the same turn", turn_section},
+      {{"repeated-turn", "game.turn and game.state that come again are the same turn",
+        turn_section},
        bears_repeated_turns},
       {{"opponent-shot", "the opponent's shot, and the turn after it", "Notifications"},
        follows_the_opponents_shot},
@@ -251,7 +251,8 @@ std::vector<Script> turn_scripts() {
       {{"short-clock", "an answer before the own clock is at zero", turn_section}, answers_in_time},
       {{"long-wait", "the connection is kept while the opponent thinks", turn_section},
        bears_a_long_wait},
-      {{"lag-probes", "probes in the midst of a turn do not disturb it", turn_section}, bears_probes},
+      {{"lag-probes", "probes in the midst of a turn do not disturb it", turn_section},
+       bears_probes},
       {{"lost-commitment", "nothing is revealed under a commitment that is not its own",
         "Fair noise"},
        keeps_its_secret},

@@ -33,8 +33,7 @@ std::string seconds(milliseconds time) {
 }  // namespace
 
 std::string with_unknown_members(std::string_view line) {
-  constexpr std::string_view added =
-      R"("x_later":{"ball":"ü😀","n":[1e-7,null,true,{"deep":[]}]})";
+  constexpr std::string_view added = R"("x_later":{"ball":"ü😀","n":[1e-7,null,true,{"deep":[]}]})";
   std::string garnished;
   bool in_string = false;
   for (std::size_t i = 0; i < line.size(); ++i) {

@@ -175,8 +175,7 @@ class Host {
   void past_answer(const Answer& answer);
   void forget_key(const Answer& answer);
   [[nodiscard]] std::optional<Answer> kept_answer(const HostedGame* game);
-  [[nodiscard]] Answer await_answer(HostedGame* game, milliseconds time,
-                                    const std::string& wanted);
+  [[nodiscard]] Answer await_answer(HostedGame* game, milliseconds time, const std::string& wanted);
   void watch_answer(const HostedGame& game, const protocol::Request& request);
   void watch_shot(const HostedGame& game, const protocol::Shot& shot);
   void broke(std::string_view duty, Verdict verdict, std::string why);
@@ -204,7 +203,7 @@ class Host {
   // What is going on.
   std::map<protocol::GameId, std::unique_ptr<HostedGame>> games_;
   std::set<std::pair<protocol::GameId, std::uint32_t>> handed_;  // turns
-  std::optional<protocol::Challenge> challenge_;  // the bot's latest
+  std::optional<protocol::Challenge> challenge_;                 // the bot's latest
   std::deque<Answer> kept_;
   using ShotKey = std::tuple<protocol::GameId, std::uint32_t, std::string>;
   std::map<ShotKey, protocol::Shot> keys_;

@@ -39,9 +39,8 @@ std::optional<Happening> Host::take(const protocol::Incoming& incoming) {
   }
   if (method == Method::shot || method == Method::decide || method == Method::concede) {
     auto answer = take_answer(id, request);
-    return answer ? std::optional{Happening{.kind = Happening::Kind::answer,
-                                            .answer = std::move(answer),
-                                            .how = {}}}
+    return answer ? std::optional{Happening{
+                        .kind = Happening::Kind::answer, .answer = std::move(answer), .how = {}}}
                   : std::nullopt;
   }
   serve_simple(id, request);
@@ -105,8 +104,8 @@ bool Host::take_login(const protocol::RequestId& id, const protocol::Request& re
   return false;
 }
 
-void Host::logged_in(const protocol::RequestId& id, const protocol::Hex256& token,
-                     std::string name, const protocol::Request& request) {
+void Host::logged_in(const protocol::RequestId& id, const protocol::Hex256& token, std::string name,
+                     const protocol::Request& request) {
   conduct_.seen(duties::hello_first);
   stage_ = Stage::in;
   link_->set_line_limit(limits_.line_bytes);
@@ -168,8 +167,7 @@ void Host::serve(const protocol::RequestId& id, const protocol::Sync& sync) {
 }
 
 void Host::serve(const protocol::RequestId& id, const protocol::GameReady& ready) {
-  if (std::find(commitments_.begin(), commitments_.end(), ready.commitment) ==
-      commitments_.end()) {
+  if (std::find(commitments_.begin(), commitments_.end(), ready.commitment) == commitments_.end()) {
     commitments_.push_back(ready.commitment);
   }
   reply(id, protocol::EmptyReply{});
@@ -183,8 +181,8 @@ void Host::serve(const protocol::RequestId& id, const protocol::GameReveal& reve
     broke(duties::reveals_fit, is_waiting ? Verdict::failure : Verdict::warning,
           is_waiting ? "bytes are revealed whose commitment no game.start has shown yet"
                      : "game.reveal for a game whose terms have no commitment of the bot's");
-    refuse(id, {ErrorCode::invalid_params, "/params/game", "your seat has no commitment",
-                reveal.game});
+    refuse(id,
+           {ErrorCode::invalid_params, "/params/game", "your seat has no commitment", reveal.game});
     return;
   }
   if (client::sha256_of(reveal.secret) != bound->second) {
@@ -221,8 +219,8 @@ void Host::serve_simple(const protocol::RequestId& id, const protocol::Request& 
     reply(id, protocol::ChallengeReply{accept->challenge, protocol::ChallengeStatus::accepted,
                                        protocol::MatchId{next_id_++}});
   } else if (const auto* decline = std::get_if<protocol::ChallengeDecline>(&request)) {
-    reply(id, protocol::ChallengeReply{
-                  decline->challenge, protocol::ChallengeStatus::declined, {}});
+    reply(id,
+          protocol::ChallengeReply{decline->challenge, protocol::ChallengeStatus::declined, {}});
   }
 }
 

@@ -40,8 +40,8 @@ HostedGame& Host::begin(GamePlan plan) {
     wanted = challenge_->rules.value_or(rules::RuleSet::eight_ball);
   }
   if (wanted && *wanted != plan.rules) {
-    throw Stop{Verdict::not_reached, "it plays " + std::string(rules::name(*wanted)) +
-                                         " (--rules gives it others too)"};
+    throw Stop{Verdict::not_reached,
+               "it plays " + std::string(rules::name(*wanted)) + " (--rules gives it others too)"};
   }
   plan.id = protocol::GameId{next_id_++};
   plan.match = challenge_ ? match_ : protocol::MatchId{next_id_++};
@@ -109,8 +109,8 @@ std::optional<Answer> Host::take_answer(const protocol::RequestId& id,
     return std::nullopt;
   };
   if (game == nullptr) {
-    return stray(ErrorCode::unknown_game, "the bot has no game " +
-                                              std::to_string(protocol::number(game_id)));
+    return stray(ErrorCode::unknown_game,
+                 "the bot has no game " + std::to_string(protocol::number(game_id)));
   }
   if (game->state().result) {
     refuse(id, {ErrorCode::game_over, "/params/game", "the game is over", game_id});
@@ -190,8 +190,7 @@ void Host::watch_shot(const HostedGame& game, const protocol::Shot& shot) {
   conduct_.seen(duties::calls_offered);
   if (!contains(rules::legal_calls(game.state()), shot.call.kind)) {
     broke(duties::calls_offered, Verdict::failure,
-          "a call of a kind that legal.calls has not, in a turn of kind " +
-              std::string(kind_name));
+          "a call of a kind that legal.calls has not, in a turn of kind " + std::string(kind_name));
   } else if (shot.call.kind == Call::Kind::pocket &&
              !contains(rules::callable_balls(game.state()), shot.call.ball)) {
     broke(duties::calls_offered, Verdict::failure,
@@ -242,9 +241,9 @@ Answer Host::any_answer() {
 }
 
 Answer Host::answer_of(HostedGame& game) {
-  return await_answer(&game, game.plan().left,
-                      turn_text(game) + " within " +
-                          std::to_string(game.plan().left.count()) + " ms");
+  return await_answer(
+      &game, game.plan().left,
+      turn_text(game) + " within " + std::to_string(game.plan().left.count()) + " ms");
 }
 
 // A shot that was not taken binds no key.
@@ -279,8 +278,8 @@ std::optional<Host::Accepted> Host::acceptable(Answer answer) {
     throw Stop{Verdict::not_reached, "it conceded"};
   }
   const auto* shot = std::get_if<protocol::Shot>(&answer.request);
-  auto played = shot != nullptr ? game.judge(*shot)
-                                : game.judge(std::get<protocol::Decide>(answer.request));
+  auto played =
+      shot != nullptr ? game.judge(*shot) : game.judge(std::get<protocol::Decide>(answer.request));
   if (played) {
     return Accepted{std::move(answer), *std::move(played)};
   }
@@ -307,8 +306,7 @@ void Host::store(const Accepted& accepted) {
 }
 
 void Host::reply_to(const Accepted& accepted) {
-  if (const auto* shot =
-          std::get_if<protocol::GameShot<Outgoing>>(&accepted.played.told)) {
+  if (const auto* shot = std::get_if<protocol::GameShot<Outgoing>>(&accepted.played.told)) {
     reply(accepted.answer.id, protocol::ShotReply<Outgoing>{*shot, {}});
   } else {
     reply(accepted.answer.id,

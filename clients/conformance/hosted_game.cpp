@@ -34,9 +34,9 @@ HostedGame::HostedGame(GamePlan plan, protocol::EventDetail detail)
       detail_(detail),
       table_(physics::preset_table(plan_.table).value()),
       materials_(physics::preset_materials(plan_.materials).value()),
-      state_(plan_.position.value_or(rules::new_game(
-          {.rules = plan_.rules, .breaker = Seat::first, .rack_seed = plan_.seed}, table_,
-          materials_))) {}
+      state_(plan_.position.value_or(
+          rules::new_game({.rules = plan_.rules, .breaker = Seat::first, .rack_seed = plan_.seed},
+                          table_, materials_))) {}
 
 protocol::GameTerms<Outgoing> HostedGame::terms() const {
   protocol::GameTerms<Outgoing> terms;
@@ -82,9 +82,8 @@ protocol::GameTurn<Outgoing> HostedGame::turn() const {
   if (state_.kind == rules::TurnKind::decision) {
     turn.legal = protocol::LegalDecisions{state_.options};
   } else {
-    turn.legal =
-        protocol::LegalBalls{rules::callable_balls(state_), rules::legal_first_balls(state_),
-                             rules::legal_calls(state_)};
+    turn.legal = protocol::LegalBalls{rules::callable_balls(state_),
+                                      rules::legal_first_balls(state_), rules::legal_calls(state_)};
   }
   turn.refusals = refusals_;
   return turn;
@@ -97,10 +96,10 @@ protocol::GameOver HostedGame::over() const {
 }
 
 protocol::GameListing HostedGame::listing() const {
-  return {plan_.id,      plan_.match,
-          plan_.tournament, plan_.seat,
-          plan_.opponent,   state_.result ? protocol::GameStatus::over
-                                          : protocol::GameStatus::running};
+  return {
+      plan_.id,         plan_.match,
+      plan_.tournament, plan_.seat,
+      plan_.opponent,   state_.result ? protocol::GameStatus::over : protocol::GameStatus::running};
 }
 
 protocol::Error HostedGame::error(ErrorCode code, std::string field, std::string reason) const {
@@ -156,8 +155,10 @@ protocol::Expected<Played> HostedGame::judge(const protocol::Decide& decide) con
     refused.game = plan_.id;
     return tl::unexpected(std::move(refused));
   }
-  protocol::GameDecision<Outgoing> told{plan_.id,      state_.turn,
-                                        state_.to_move, decide.choice,
+  protocol::GameDecision<Outgoing> told{plan_.id,
+                                        state_.turn,
+                                        state_.to_move,
+                                        decide.choice,
                                         {protocol::encode_state(*next)},
                                         {plan_.left.count(), plan_.left.count(), {}}};
   return Played{std::move(told), *std::move(next)};
@@ -231,10 +232,8 @@ protocol::Expected<protocol::Reply<Outgoing>> HostedGame::again(
 
 Played HostedGame::opponent_plays() {
   const std::uint64_t seed = plan_.seed + state_.turn * most_draws;
-  const client::GameInfo info{.seat = state_.to_move,
-                              .rules = plan_.rules,
-                              .table = table_,
-                              .materials = materials_};
+  const client::GameInfo info{
+      .seat = state_.to_move, .rules = plan_.rules, .table = table_, .materials = materials_};
   std::optional<Played> chosen;
   for (std::uint64_t draw = 0; draw < most_draws; ++draw) {
     const auto player = bots::house_bot("random", {.seed = seed + draw}).value()(info);

@@ -34,9 +34,9 @@ struct GamePlan {
   std::string materials = "olympiad";
   std::optional<protocol::NoiseParams> noise = protocol::noise_preset("olympiad");  // unset: hidden
   protocol::ClockSettings clock{};
-  std::chrono::milliseconds left{10'000};    // on both clocks, at every turn
-  std::uint64_t seed = 20261130;  // of the rack and of the opponent's shots
-  std::optional<rules::GameState> position{};  // unset: a fresh rack
+  std::chrono::milliseconds left{10'000};            // on both clocks, at every turn
+  std::uint64_t seed = 20261130;                     // of the rack and of the opponent's shots
+  std::optional<rules::GameState> position{};        // unset: a fresh rack
   std::optional<protocol::Hex256> own_commitment{};  // the bot's, if it has sent one
 };
 
@@ -55,9 +55,7 @@ class HostedGame {
   [[nodiscard]] const rules::GameState& state() const { return state_; }
   [[nodiscard]] const physics::Table& table() const { return table_; }
   [[nodiscard]] const physics::Materials& materials() const { return materials_; }
-  [[nodiscard]] bool is_bots_turn() const {
-    return !state_.result && state_.to_move == plan_.seat;
-  }
+  [[nodiscard]] bool is_bots_turn() const { return !state_.result && state_.to_move == plan_.seat; }
   void set_detail(protocol::EventDetail detail) { detail_ = detail; }
 
   [[nodiscard]] protocol::GameStart<Outgoing> start() const;

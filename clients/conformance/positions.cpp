@@ -42,7 +42,8 @@ class Layout {
     return put_at(ball, {x * table_.width, y * table_.length});
   }
   Layout& put_at(unsigned ball, physics::Vec2<double> place) {
-    state_.balls[ball] = {BallId{static_cast<std::uint8_t>(ball)}, Whereabouts::on_table, place, {}};
+    state_.balls[ball] = {
+        BallId{static_cast<std::uint8_t>(ball)}, Whereabouts::on_table, place, {}};
     return *this;
   }
   Layout& down(unsigned ball, PocketId pocket) {
@@ -51,8 +52,7 @@ class Layout {
     return *this;
   }
   Layout& off(unsigned ball) {
-    state_.balls[ball] = {
-        BallId{static_cast<std::uint8_t>(ball)}, Whereabouts::off_table, {}, {}};
+    state_.balls[ball] = {BallId{static_cast<std::uint8_t>(ball)}, Whereabouts::off_table, {}, {}};
     return *this;
   }
   Layout& kind(TurnKind kind) {
@@ -77,10 +77,21 @@ class Layout {
   }
   // Some balls here and there, none near another or a rail.
   Layout& scattered(std::vector<unsigned> balls) {
-    static constexpr std::array<std::pair<double, double>, 15> places{
-        {{0.31, 0.62}, {0.72, 0.71}, {0.22, 0.84}, {0.55, 0.55}, {0.83, 0.42},
-         {0.41, 0.36}, {0.64, 0.88}, {0.13, 0.47}, {0.48, 0.76}, {0.87, 0.58},
-         {0.27, 0.29}, {0.69, 0.31}, {0.12, 0.7},  {0.9, 0.81},  {0.35, 0.93}}};
+    static constexpr std::array<std::pair<double, double>, 15> places{{{0.31, 0.62},
+                                                                       {0.72, 0.71},
+                                                                       {0.22, 0.84},
+                                                                       {0.55, 0.55},
+                                                                       {0.83, 0.42},
+                                                                       {0.41, 0.36},
+                                                                       {0.64, 0.88},
+                                                                       {0.13, 0.47},
+                                                                       {0.48, 0.76},
+                                                                       {0.87, 0.58},
+                                                                       {0.27, 0.29},
+                                                                       {0.69, 0.31},
+                                                                       {0.12, 0.7},
+                                                                       {0.9, 0.81},
+                                                                       {0.35, 0.93}}};
     for (const unsigned ball : balls) {
       put(ball, places[ball - 1].first, places[ball - 1].second);
     }
@@ -174,17 +185,20 @@ GamePlan snookered() {
   }
   return layout.put(1, 0.2, 0.9).put(8, 0.8, 0.1).plan();
 }
-// A corner's mouth line goes from 0.11/sqrt(2) m of one rail to the other's, a side's along the rail:
-// these balls' centres are a hair's breadth outside.
+// A ball falls where x + y = corner / sqrt(2) + R in a corner and x = R in a side pocket: these two
+// are a hair's breadth outside.
 GamePlan in_the_jaws() {
   Layout layout = middle_game();
-  const double corner = 0.0396;
+  const double corner = 0.0535;
+  const double side = layout.table().width - 1.01 * layout.radius();
   layout.put_at(1, {corner, corner});
-  return layout.put_at(10, {layout.table().width - 0.001, layout.table().length / 2 + 0.01})
-      .plan();
+  return layout.put_at(10, {side, layout.table().length / 2 + 0.01}).plan();
 }
 GamePlan every_ball_but_one() {
-  return eight().scattered({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14}).put(0, 0.5, 0.15).plan();
+  return eight()
+      .scattered({1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14})
+      .put(0, 0.5, 0.15)
+      .plan();
 }
 GamePlan whole_numbers() {
   Layout layout = middle_game();
@@ -192,9 +206,9 @@ GamePlan whole_numbers() {
 }
 GamePlan second_rack() {
   Layout layout = eight();
-  rules::GameState state = rules::new_game({.rules = RuleSet::eight_ball, .rack_seed = 7},
-                                           layout.table(),
-                                           physics::preset_materials("olympiad").value());
+  rules::GameState state =
+      rules::new_game({.rules = RuleSet::eight_ball, .rack_seed = 7}, layout.table(),
+                      physics::preset_materials("olympiad").value());
   state.turn = 61;
   state.rack = 3;
   state.stalemates = 1;
@@ -203,9 +217,9 @@ GamePlan second_rack() {
 }
 GamePlan lost_break() {
   Layout layout = eight();
-  rules::GameState state = rules::new_game(
-      {.rules = RuleSet::eight_ball, .breaker = Seat::second, .rack_seed = 7}, layout.table(),
-      physics::preset_materials("olympiad").value());
+  rules::GameState state =
+      rules::new_game({.rules = RuleSet::eight_ball, .breaker = Seat::second, .rack_seed = 7},
+                      layout.table(), physics::preset_materials("olympiad").value());
   state.turn = 2;
   state.breaker = state.to_move = Seat::first;
   layout.state() = state;
@@ -329,10 +343,7 @@ const std::array<Position, 30> all{{
     {{"nine-ball-in-hand", "an answer with the cue ball in hand after two fouls", a_turn},
      nine_in_hand},
     {{"only-the-9", "an answer with only the 9 left", a_turn}, only_the_nine},
-    {{"8-ball-break", "a break in 8-ball", a_turn},
-     [] {
-       return GamePlan{};
-     }},
+    {{"8-ball-break", "a break in 8-ball", a_turn}, [] { return GamePlan{}; }},
 }};
 
 }  // namespace

@@ -22,8 +22,8 @@ bool is_wanted(const RunOptions& options, std::string_view name) {
          std::find(options.only.begin(), options.only.end(), name) != options.only.end();
 }
 
-// Names of the scripts to be run: those that are wanted, and those in which a standing check that is
-// wanted shows.
+// Names of the scripts to be run: those that are wanted, and those in which a standing check that
+// is wanted shows.
 std::set<std::string_view> scripts_to_run(const RunOptions& options) {
   std::set<std::string_view> names;
   for (const Script& script : scripts()) {
@@ -120,9 +120,8 @@ class Runner {
 
 std::size_t Report::count(Verdict verdict) const {
   return static_cast<std::size_t>(
-      std::count_if(results.begin(), results.end(), [verdict](const Result& result) {
-        return result.outcome.verdict == verdict;
-      }));
+      std::count_if(results.begin(), results.end(),
+                    [verdict](const Result& result) { return result.outcome.verdict == verdict; }));
 }
 
 std::vector<CheckInfo> all_checks() {

@@ -130,8 +130,9 @@ void add_conformance_command(CLI::App& app, int& exit_code) {
                       "the command are filled in");
   command->add_option("--only", arguments->only, "Run this check alone; may be given again");
   command->add_flag("--list", arguments->list, "Print the checks and what they demand");
-  command->add_option("--rules", arguments->rules,
-                      "Games that the bot plays; without it those that it asks for, or both")
+  command
+      ->add_option("--rules", arguments->rules,
+                   "Games that the bot plays; without it those that it asks for, or both")
       ->check(CLI::IsMember({"8-ball", "9-ball", "both"}));
   command->add_option("--clock", arguments->clock, "Seconds on the bot's clock at every turn")
       ->check(CLI::Range(0.1, 3600.0))

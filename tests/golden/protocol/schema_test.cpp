@@ -1,6 +1,7 @@
 // The published schemas and the published transcripts against the code.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
@@ -10,6 +11,7 @@
 #include <vector>
 
 #include "protocol/codec.hpp"
+#include "protocol/json_value.hpp"
 #include "protocol/scene_json.hpp"
 #include "tests/support/sample_messages.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -190,25 +192,95 @@ TEST(Readme, HasExamplesThatAreValid) {
   EXPECT_EQ(verdict.exit_code, 0) << verdict.output;
 }
 
-TEST(Readme, NamesEveryMethodNotificationErrorAndLimit) {
+std::string readme() {
   std::ifstream in(source_dir / "protocol/README.md");
   std::stringstream text;
   text << in.rdbuf();
-  const std::string readme = text.str();
-  const auto expect_named = [&](std::string_view word) {
-    EXPECT_NE(readme.find("`" + std::string(word)), std::string::npos) << word;
-  };
+  return text.str();
+}
+
+void expect_named(const std::string& page, std::string_view word) {
+  EXPECT_NE(page.find("`" + std::string(word)), std::string::npos) << word;
+}
+
+TEST(Readme, NamesEveryMethodNotificationAndError) {
+  const std::string page = readme();
   for (std::size_t i = 0; i < std::variant_size_v<Request>; ++i) {
-    expect_named(name(static_cast<Method>(i)));
+    expect_named(page, name(static_cast<Method>(i)));
   }
   for (std::size_t i = 0; i < notification_count; ++i) {
-    expect_named(notification_name(i));
+    expect_named(page, notification_name(i));
   }
   for (const ErrorEntry& known : error_registry()) {
-    expect_named(known.name);
-    EXPECT_NE(readme.find(std::to_string(static_cast<int>(known.code))), std::string::npos);
-    EXPECT_NE(readme.find(known.meaning), std::string::npos) << known.meaning;
+    expect_named(page, known.name);
+    EXPECT_NE(page.find(std::to_string(static_cast<int>(known.code))), std::string::npos);
+    EXPECT_NE(page.find(known.meaning), std::string::npos) << known.meaning;
   }
+}
+
+// Words of the rules and of the physics that stand in messages.
+template <class Word>
+void expect_all_named(const std::string& page) {
+  for (int i = 0; !name(static_cast<Word>(i)).empty(); ++i) {
+    expect_named(page, name(static_cast<Word>(i)));
+  }
+}
+
+TEST(Readme, NamesEveryWordOfTheRulesAndThePhysics) {
+  const std::string page = readme();
+  expect_all_named<rules::FoulCode>(page);
+  expect_all_named<rules::EndReason>(page);
+  expect_all_named<rules::Decision>(page);
+  expect_all_named<rules::TurnKind>(page);
+  expect_all_named<physics::EventType>(page);
+  expect_all_named<physics::MotionState>(page);
+  for (std::size_t i = 0; i < physics::pocket_count; ++i) {
+    expect_named(page, name(static_cast<physics::PocketId>(i)));
+  }
+}
+
+std::vector<std::string> in_ticks_or_commas(const std::string& cell) {
+  std::vector<std::string> items;
+  std::istringstream in(cell);
+  for (std::string item; std::getline(in, item, ',');) {
+    std::erase_if(item, [](char c) { return c == ' ' || c == '`'; });
+    items.push_back(item);
+  }
+  return items;
+}
+
+// Rows of the table of limits: | `name`, `name` | default, default | meaning |
+std::map<std::string, std::string> limits_of(const std::string& page) {
+  std::map<std::string, std::string> limits;
+  std::istringstream in(page.substr(page.find("| `limits` | default |")));
+  for (std::string line; std::getline(in, line) && line.starts_with("|");) {
+    std::istringstream row(line.substr(1));
+    std::string names;
+    std::string values;
+    std::getline(row, names, '|');
+    std::getline(row, values, '|');
+    const auto keys = in_ticks_or_commas(names);
+    const auto defaults = in_ticks_or_commas(values);
+    for (std::size_t i = 0; i < std::min(keys.size(), defaults.size()); ++i) {
+      limits[keys[i]] = defaults[i];
+    }
+  }
+  limits.erase("limits");
+  limits.erase("---");
+  return limits;
+}
+
+TEST(Readme, HasEveryLimitWithItsDefault) {
+  HelloReply hello;
+  const auto line = parse_json(encode_reply({"1"}, hello), {16, 1000});
+  ASSERT_TRUE(line);
+  const JsonValue* limits = line->member("result")->member("limits");
+  ASSERT_NE(limits, nullptr);
+  std::map<std::string, std::string> told;
+  for (const auto& [key, value] : *limits->as<JsonObject>()) {
+    told[key] = canonical_text(value);
+  }
+  EXPECT_EQ(limits_of(readme()), told);
 }
 
 }  // namespace

@@ -7,18 +7,10 @@
 
 #include "clients/bots/exhibition.hpp"
 #include "clients/bots/house_bots.hpp"
-#include "clients/cpp/client.hpp"
+#include "tests/support/ten_lines.hpp"
 
 namespace poolhall {
 namespace {
-
-client::Move ten_lines(const client::TurnView& turn) {
-  // clang-format off
-    if (turn.state.kind == rules::TurnKind::decision) return turn.state.options.front();
-    if (turn.state.kind != rules::TurnKind::shot) return client::Shot{{.b = 5, .theta = 10, .phi = 90, .v = 4}, {{0.5, 0.3}}};
-    return client::Shot{{.b = 5, .theta = 10, .phi = 37.0 * turn.state.turn, .v = 4}, {}, {.kind = rules::Call::Kind::safety}};
-  // clang-format on
-}
 
 // The lines of `text` with the spaces around them cut off.
 std::vector<std::string> trimmed_lines(std::istream& text) {
@@ -32,7 +24,7 @@ std::vector<std::string> trimmed_lines(std::istream& text) {
 
 TEST(TenLineBot, IsTheOneInTheReadme) {
   std::ifstream readme(POOLHALL_SOURCE_DIR "/clients/cpp/README.md");
-  std::ifstream here(POOLHALL_SOURCE_DIR "/tests/integration/clients/ten_lines_test.cpp");
+  std::ifstream here(POOLHALL_SOURCE_DIR "/tests/support/ten_lines.hpp");
   std::ostringstream page;
   page << readme.rdbuf();
   std::size_t found = 0;
@@ -47,7 +39,7 @@ TEST(TenLineBot, IsTheOneInTheReadme) {
 
 TEST(TenLineBot, PlaysAGameToItsEnd) {
   const auto game = bots::play_exhibition(
-      {.seed = 3}, {client::player_from(ten_lines), *bots::house_bot("greedy", {})});
+      {.seed = 3}, {client::player_from(test_support::ten_lines), *bots::house_bot("greedy", {})});
   EXPECT_EQ(game.fault, "");
   ASSERT_TRUE(game.result.winner);
   EXPECT_GT(game.seats[0].shots, 0U);
