@@ -115,6 +115,17 @@ void server_is_full(Host& host) {
   }
 }
 
+// The server has not noticed that the old connection is gone, and takes one login a second.
+void login_is_put_off(Host& host) {
+  const protocol::Error later{ErrorCode::rate_limited, "",
+                              "this agent has logged in within the last 1000 ms"};
+  HostedGame& game = in_a_game(host);
+  host.refuse_next(protocol::Method::login, later);
+  host.refuse_next(protocol::Method::register_agent, later);
+  host.cut(Cut::close);
+  comes_back_and_goes_on(host, game);
+}
+
 void game_ends_meanwhile(Host& host) {
   HostedGame& game = in_a_game(host);
   host.hand_turn(game);
@@ -162,6 +173,8 @@ std::vector<Script> return_scripts() {
         return_section},
        server_restarts},
       {{"server-full", "server_full is retryable: it comes back later", "Errors"}, server_is_full},
+      {{"login-put-off", "a login that is refused for now is tried again", "Errors"},
+       login_is_put_off},
       {{"end-while-away", "a game that ended while it was away is over, and the next is played",
         return_section},
        game_ends_meanwhile},

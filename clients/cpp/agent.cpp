@@ -308,6 +308,7 @@ std::optional<End> Agent::login_failed(const protocol::ErrorMessage& message, St
   }
   if (message.retryable) {
     log("not logged in: " + text_of(message));
+    stage_ = Stage::put_off;
     return std::nullopt;
   }
   return End{Ending::refused, text_of(message)};

@@ -85,10 +85,12 @@ class Agent {
   void send_ping();
 
   [[nodiscard]] bool is_logged_in() const { return stage_ == Stage::logged_in; }
+  // The server does not let it in at the moment: hang up, and come back later.
+  [[nodiscard]] bool is_put_off() const { return stage_ == Stage::put_off; }
   [[nodiscard]] const protocol::Hex256& token() const { return token_; }
 
  private:
-  enum class Stage : std::uint8_t { greeting, logging_in, registering, logged_in };
+  enum class Stage : std::uint8_t { greeting, logging_in, registering, logged_in, put_off };
   struct InFlight {
     protocol::Method method{};
     std::optional<protocol::GameId> game{};

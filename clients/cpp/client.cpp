@@ -187,6 +187,9 @@ class Client::Life : public Outside {
         finish(*std::move(end));
       }
       was_logged_in_ = was_logged_in_ || agent_.is_logged_in();
+      if (agent_.is_put_off()) {
+        break;
+      }
     }
     connection_->close();
     watch_.cancel();

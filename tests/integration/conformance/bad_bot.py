@@ -20,7 +20,7 @@ FAULTS = """
 answers-opponents-turns calls-the-8 chatters-before-login comes-back-after-superseded decides-accept
 dies-of-pocketed-cue-ball dies-of-unknown-members dies-of-unknown-notifications forgets-cue-ball
 gives-up-after-error gives-up-after-refusal hears-one-line-a-segment keeps-half-a-line
-knows-one-game loops-on-stale-turn plays-lost-turns reads-64-kib replies-in-order
+knows-one-game logs-in-once loops-on-stale-turn plays-lost-turns reads-64-kib replies-in-order
 rethinks-on-resend reveals-early sends-nan skips-hello stays-away thinks-too-long
 two-places-for-the-cue-ball wrong-lag
 """.split()
@@ -133,6 +133,10 @@ class Bot:
         method, about = self.asked.pop(message["id"])
         if method == "login":
             if "error" in message:
+                if self.has("logs-in-once"):
+                    return
+                if message["error"]["data"]["retryable"]:
+                    raise Gone  # and back a little later
                 sys.exit(message["error"]["message"])
             self.commit()
         if method not in ("shot", "decide"):

@@ -106,6 +106,17 @@ TEST_F(AgentTest, RegistersUnderItsNameWithATokenOfItsOwn) {
   EXPECT_EQ(request.token->text.size(), 64U);
 }
 
+TEST_F(AgentTest, HangsUpAndComesBackWhenItsLoginIsPutOff) {
+  agent().begin_session();
+  ASSERT_FALSE(reply(protocol::HelloReply{}));
+  ASSERT_FALSE(error(ErrorCode::rate_limited));
+  EXPECT_TRUE(agent().is_put_off());
+  agent().session_ended();
+  agent().begin_session();
+  EXPECT_FALSE(agent().is_put_off());
+  EXPECT_TRUE(std::holds_alternative<protocol::Hello>(last().request));
+}
+
 TEST_F(AgentTest, LogsInWithTheSameTokenAfterALostReplyToRegister) {
   agent().begin_session();
   ASSERT_FALSE(reply(protocol::HelloReply{}));
