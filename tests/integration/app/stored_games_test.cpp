@@ -100,16 +100,35 @@ TEST_F(StoredGames, are_exported_as_json_lines_without_keys_while_the_match_goes
                                           "turn", "turn", "turn", "turn", "turn", "turn"));
 }
 
+// Whose keys are told then.
+void end_match(const std::filesystem::path& file) {
+  auto database = storage::open_sqlite(file).value();
+  match::must(database->begin());
+  const auto record = match::must(database->match(protocol::MatchId{1})).value();
+  match::must(database->update_match(match::finished(record, storage::UnixMicros{1})));
+  match::must(database->commit());
+}
+
 TEST_F(StoredGames, are_exported_with_their_keys_once_the_match_is_over) {
-  {
-    auto database = storage::open_sqlite(file_).value();
-    match::must(database->begin());
-    const auto record = match::must(database->match(protocol::MatchId{1})).value();
-    match::must(database->update_match(match::finished(record, storage::UnixMicros{1})));
-    match::must(database->commit());
-  }
+  end_match(file_);
   EXPECT_THAT(run("export --db " + file_.string()).out,
               HasSubstr("\"key\":\"01080f161d242b323940474e555c636a71787f868d949ba2a9b0b7bec5cc"));
+}
+
+// The program of docs/records.md, as it stands there.
+TEST_F(StoredGames, are_checked_by_the_program_of_the_page_of_records) {
+  end_match(file_);
+  ASSERT_EQ(run("export --db " + file_.string() + " --output " + at("games.jsonl")).exit_code, 0);
+  std::ifstream in(POOLHALL_SOURCE_DIR "/docs/records.md");
+  const std::string page{std::istreambuf_iterator<char>(in), {}};
+  const std::string fence = "```python\n";
+  const auto begin = page.find(fence) + fence.size();
+  std::ofstream(at("check.py")) << page.substr(begin, page.find("```", begin) - begin);
+  const std::string command = "/usr/bin/python3 " + at("check.py") + " " + at("games.jsonl") +
+                              " > " + at("out") + " 2> " + at("err");
+  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0) << read("err");
+  EXPECT_THAT(read("out"), HasSubstr("1 commitments and the noise of "));
+  EXPECT_THAT(read("out"), Not(HasSubstr(" of 0 shots")));
 }
 
 }  // namespace
