@@ -140,7 +140,6 @@ class Host {
   // Throws Stop if this standing check has failed in this session.
   void demand(std::string_view duty) const;
   [[nodiscard]] bool is_connected() const { return link_ != nullptr; }
-  [[nodiscard]] bool has_ended() const { return !bot_.runs(); }
   // How often this was asked.
   [[nodiscard]] int times_asked(protocol::Method method) const;
   // The next request of this kind is refused so, once; answers to turns are not meant.

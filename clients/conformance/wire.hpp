@@ -26,8 +26,8 @@ enum class Pace : std::uint8_t {
 class Link {
  public:
   enum class Kind : std::uint8_t {
-    nothing,   // no complete line yet
-    line,      //
+    nothing,  // no complete line yet
+    line,
     too_long,  // the line is longer than the limit
     closed,    // by the other end; no line will come any more
   };
@@ -43,8 +43,6 @@ class Link {
 
   [[nodiscard]] int descriptor() const { return descriptor_; }
   void set_line_limit(std::size_t limit) { splitter_.set_limit(limit); }
-  // Whether take_line() may have something without more bytes.
-  [[nodiscard]] bool has_bytes() const { return !rest_.empty(); }
   // Reads what there is; never blocks.
   [[nodiscard]] Got take_line();
   // False if the other end is gone or does not read for ten seconds.

@@ -76,7 +76,7 @@ std::filesystem::path log_folder(const std::string& wanted) {
   return name;
 }
 
-int fail(const std::string& why) {
+int refuse_arguments(const std::string& why) {
   std::cerr << "poolhall conformance: " << why << "\n";
   return 2;
 }
@@ -87,16 +87,18 @@ int run_conformance(const ConformanceArguments& arguments) {
     return 0;
   }
   if (arguments.command.empty()) {
-    return fail("--command: is missing, expected the command line that starts the bot");
+    return refuse_arguments("--command: is missing, expected the command line that starts the bot");
   }
   if (const std::string name = unknown_name(arguments.only); !name.empty()) {
-    return fail("--only: got \"" + name + "\", expected a name of --list");
+    return refuse_arguments("--only: got \"" + name + "\", expected a name of --list");
   }
-  conformance::RunOptions options{.command = arguments.command, .starter = start_bot};
-  options.host = {.clock = duration(arguments.clock),
-                  .patience = duration(arguments.patience),
-                  .bound = duration(arguments.bound),
-                  .seed = arguments.seed};
+  conformance::RunOptions options;
+  options.command = arguments.command;
+  options.starter = start_bot;
+  options.host.clock = duration(arguments.clock);
+  options.host.patience = duration(arguments.patience);
+  options.host.bound = duration(arguments.bound);
+  options.host.seed = arguments.seed;
   options.host.rules = rules::rule_set(arguments.rules);
   options.host.all_rules = arguments.rules == "both";
   options.only = arguments.only;
@@ -104,7 +106,7 @@ int run_conformance(const ConformanceArguments& arguments) {
   try {
     options.logs = log_folder(arguments.logs);
   } catch (const std::exception& failure) {
-    return fail(std::string("--logs: ") + failure.what());
+    return refuse_arguments(std::string("--logs: ") + failure.what());
   }
   const conformance::Report report = conformance::run(options);
   const bool has_failed = report.count(conformance::Verdict::failure) > 0 ||
