@@ -170,6 +170,23 @@ TEST(Transcripts, AreReadByBothSidesOfTheCodec) {
   }
 }
 
+TEST(Transcripts, ShowWhatIsHardToImagine) {
+  std::string all;
+  for (const Recorded& recorded : transcripts()) {
+    for (const std::string& line : recorded.lines) {
+      all += line + "\n";
+    }
+  }
+  for (const char* text :
+       {R"("method":"register")", R"("method":"login")", R"("method":"sync")",
+        R"("method":"superseded")", R"("method":"challenge.offer")", R"("duplicate":true)",
+        R"("foul":true)", R"("method":"game.turn_lost")", R"("method":"decide")",
+        R"("kind":"ball_in_hand")", R"("call":"push_out")", R"("choice":"pass_back")",
+        R"("method":"game.reveal")", R"("method":"match.over")", R"("method":"lag")"}) {
+    EXPECT_NE(all.find(text), std::string::npos) << text;
+  }
+}
+
 // Every block of json-lines in README.md is written like a transcript.
 TEST(Readme, HasExamplesThatAreValid) {
   std::ifstream in(source_dir / "protocol/README.md");
