@@ -27,8 +27,11 @@ std::vector<std::string> help_of(const std::string& arguments) {
   return lines;
 }
 
-// Lines that are indented by two are names; what explains them follows in a column further right,
-// on the same line or, after a long name, on the next.
+// Names are indented by two; what explains them follows in a column further right, on the same line
+// or, after a long name, on the next.
+bool is_option(const std::string& line) {
+  return line.starts_with("  -");
+}
 bool is_name(const std::string& line) {
   return line.size() > 2 && line.starts_with("  ") && line[2] != ' ';
 }
@@ -46,6 +49,7 @@ std::vector<std::string> sub_commands(const std::vector<std::string>& lines) {
   for (const std::string& line : lines) {
     inside = inside || line.starts_with("Subcommands");
     if (inside && is_name(line)) {
+      EXPECT_NE(line.find("  ", 2), std::string::npos) << line;
       names.push_back(line.substr(2, line.find(' ', 2) - 2));
     }
   }
@@ -55,7 +59,7 @@ std::vector<std::string> sub_commands(const std::vector<std::string>& lines) {
 void expect_explained(const std::string& arguments) {
   const auto lines = help_of(arguments);
   for (std::size_t i = 0; i < lines.size(); ++i) {
-    if (is_name(lines[i])) {
+    if (is_option(lines[i])) {
       EXPECT_TRUE(is_explained(lines, i)) << "poolhall " << arguments << ": " << lines[i];
     }
   }
