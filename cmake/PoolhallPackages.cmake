@@ -87,6 +87,8 @@ set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libboost1.81-dev, libssl-dev, libe
 set(CPACK_COMPONENT_PYTHON_DESCRIPTION
   "Python package for pool bots\n The simulator, the referee and a client.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
+string(REGEX MATCH "^([0-9]+)\\.([0-9]+)" matched "${POOLHALL_PYTHON_VERSION}")
+math(EXPR next_minor "0${CMAKE_MATCH_2} + 1")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS
-  "python3 (>= ${Python_VERSION_MAJOR}.${Python_VERSION_MINOR}), python3 (<< ${Python_VERSION_MAJOR}.100), python3-numpy")
+  "python3 (>= ${matched}), python3 (<< ${CMAKE_MATCH_1}.${next_minor}), python3-numpy")
 include(CPack)
