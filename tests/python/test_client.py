@@ -2,14 +2,17 @@
 import asyncio
 import json
 import math
+import os
+import signal
 import subprocess
+import sys
 
 import poolhall
 import pytest
 from poolhall import Client, Error, Move, Shot
 from poolhall.agent import Agent, Concede, Settings
 
-from conftest import Server
+from conftest import BUILD, Server
 
 
 def choose(turn):
@@ -217,7 +220,28 @@ def test_raises_what_the_player_raises(server):
     assert caught.value.field == "/choice"
 
 
+def test_ctrl_c_ends_it_even_while_the_player_thinks(server):
+    code = f"""
+import threading, poolhall
+def choose(turn):
+    print("thinking", flush=True)
+    threading.Event().wait()
+try:
+    poolhall.play_on_server(choose, {server.address!r}, name="slow", challenges=["house:random"])
+except KeyboardInterrupt:
+    print("ended", flush=True)
+"""
+    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True,
+                             env={**os.environ, "PYTHONPATH": str(BUILD / "python")})
+    assert child.stdout.readline() == "thinking\n"
+    child.send_signal(signal.SIGINT)
+    out, _ = child.communicate(timeout=60)
+    assert out == "ended\n" and child.returncode == 0
+
+
 def test_checks_its_settings():
+    with pytest.raises(Error):
+        Client(choose, name="x").stop()
     for wrong, field in ((dict(address="nowhere"), "/address"), (dict(games=0), "/games"),
                          (dict(challenges=[7]), "/challenges"), (dict(threads=0), "/threads")):
         with pytest.raises(Error) as caught:

@@ -108,6 +108,7 @@ class Client:
         self._threads = threads
         self._writer: Optional[asyncio.StreamWriter] = None
         self._last_line = 0.0
+        self._loop: Optional[asyncio.AbstractEventLoop] = None
 
     @property
     def token(self) -> str:
@@ -132,7 +133,9 @@ class Client:
             await asyncio.gather(*self._tasks, return_exceptions=True)
 
     def stop(self) -> None:
-        """Ends `run` with ending "stopped"; from any thread."""
+        """Ends `run`, which has begun, with ending "stopped"; from any thread."""
+        if self._loop is None:
+            raise Error("invalid_request", "the client does not run yet")
         end = End("stopped", "stopped by the host program", self._agent.games)
         self._loop.call_soon_threadsafe(self._finish, end)
 
