@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "server/ledger/stored_tournament.hpp"
+#include "server/ledger/tables.hpp"
 #include "server/ratings/status_text.hpp"
 #include "server/tournament/crosstable.hpp"
 #include "server/tournament/standings.hpp"
@@ -212,6 +213,16 @@ void write_entries(JsonWriter& out, const Field& field, const Names& names) {
   out.end_array();
 }
 
+void write_lines(JsonWriter& out, std::string_view text) {
+  out.begin_array();
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    out.string(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  out.end_array();
+}
+
 // The tables that `poolhall tournament` shows too.
 void write_tables(JsonWriter& out, const Field& field) {
   tournament::Standings table;
@@ -220,15 +231,12 @@ void write_tables(JsonWriter& out, const Field& field) {
   if (field.book) {
     entries = field.book->names();
     games = field.book->games();
-    table = tournament::standings(entries.size(), games, field.book->table_rules());
+    table = ledger::standings(*field.book);
   }
   write_standings(out, table, entries);
   write_crosstable(out, tournament::crosstable(entries.size(), games), table);
-  out.key("remarks").begin_array();
-  if (const auto line = field.book ? ledger::sprt_line(*field.book) : std::nullopt) {
-    out.string(*line);
-  }
-  out.end_array();
+  out.key("remarks");
+  write_lines(out, field.book ? ledger::remarks(*field.book) : std::string{});
 }
 
 }  // namespace
