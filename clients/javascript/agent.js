@@ -137,6 +137,8 @@ class Player {
     this.token = options.token;
     /** @type {Map<number, any>} by game */
     this.terms = new Map();
+    /** @type {Map<number, {turn: number, refusals: number, move: Promise<any>}>} the latest, by game */
+    this.moves = new Map();
     this.over = 0;
     this.done = false;
     /** @type {unknown} */
@@ -234,12 +236,29 @@ class Player {
     }
   }
 
+  /**
+   * The move of a turn: chosen once, however often the turn is handed out, because a shot_id must
+   * never stand for two shots.
+   * @param {any} turn
+   * @returns {Promise<any>}
+   */
+  chosen(turn) {
+    const { game, turn: number, refusals } = turn;
+    const known = this.moves.get(game);
+    if (known && known.turn === number && known.refusals === refusals) {
+      return known.move;
+    }
+    const move = (async () => this.choose(turn, this.terms.get(game)))();
+    this.moves.set(game, { turn: number, refusals, move });
+    return move;
+  }
+
   /** @param {any} turn */
   async answer(turn) {
     const agent = this.agent;
     const { game, turn: number } = turn;
     try {
-      const move = await this.choose(turn, this.terms.get(game));
+      const move = await this.chosen(turn);
       if (move === 'concede') {
         await agent?.ask('concede', { game });
       } else if (move.choice) {
@@ -249,20 +268,31 @@ class Player {
         this.options.onShot?.(own, this.terms.get(game));
       }
     } catch (error) {
-      this.refused(error, turn);
+      this.refused(error, turn, agent);
     }
   }
 
   /**
-   * What cannot be played is chosen again while the turn is ours; an error of `choose` ends it all.
+   * What cannot be played is chosen again while the turn is ours, what failed for the moment is sent
+   * again a little later; an error of `choose` ends it all.
    * @param {unknown} error
    * @param {any} turn
+   * @param {Agent | undefined} agent
    */
-  refused(error, turn) {
+  refused(error, turn, agent) {
     if (!(error instanceof AgentError)) {
       if (!this.agent?.socket.destroyed) {
         this.end(error);
       }
+      return;
+    }
+    if (error.retryable) {
+      setTimeout(() => {
+        // After a new login the turn is handed out again.
+        if (agent === this.agent && !agent?.socket.destroyed) {
+          this.answer(turn);
+        }
+      }, firstPause);
       return;
     }
     this.options.onRefusal?.(error, turn);
@@ -275,6 +305,7 @@ class Player {
   async gameOver(over) {
     const terms = this.terms.get(over.game);
     this.terms.delete(over.game);
+    this.moves.delete(over.game);
     this.options.onOver?.(over, terms);
     await this.agent?.ask('ack', { game: over.game }).catch(() => {});
     this.over += 1;

@@ -5,6 +5,7 @@
 
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 #include <fstream>
 #include <set>
 #include <sstream>
@@ -73,6 +74,16 @@ TEST(Conformance, PassesThePythonExample) {
       python + POOLHALL_SOURCE_DIR "/clients/python/example_bot.py {server}", "--patience 20");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   EXPECT_TRUE(ran.says(" 0 failed, ")) << ran.output;
+}
+
+TEST(Conformance, PassesTheJavaScriptExample) {
+  if (std::system("command -v node > /dev/null") != 0) {
+    GTEST_SKIP() << "there is no node";
+  }
+  const Ran ran = conformance(
+      "node " POOLHALL_SOURCE_DIR "/clients/javascript/example_bot.js {server}", "--patience 20");
+  EXPECT_EQ(ran.exit_code, 0) << ran.output;
+  EXPECT_TRUE(ran.says(" 0 warned, 0 failed, ")) << ran.output;
 }
 
 // The first block of Python on the protocol's page.
