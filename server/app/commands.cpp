@@ -3,7 +3,9 @@
 namespace poolhall::app {
 
 void add_commands(CLI::App& app, int& exit_code) {
+#ifndef POOLHALL_WITHOUT_BENCH
   add_bench_command(app, exit_code);
+#endif
   add_bot_command(app, exit_code);
   add_conformance_command(app, exit_code);
   add_export_command(app, exit_code);

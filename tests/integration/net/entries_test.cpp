@@ -11,7 +11,8 @@
 #include "tests/support/temporary_directory.hpp"
 #include "wire_client.hpp"
 
-namespace poolhall::net_tests {
+// A namespace of its own: some of its names are another file's.
+namespace poolhall::net_tests::entries_tests {
 namespace {
 
 using protocol::Membership;
@@ -265,4 +266,4 @@ TEST_F(Entries, TheHostEntersAndWithdrawsAgents) {
 }
 
 }  // namespace
-}  // namespace poolhall::net_tests
+}  // namespace poolhall::net_tests::entries_tests

@@ -10,7 +10,8 @@
 #include "clients/bots/house_bots.hpp"
 #include "physics/simulator.hpp"
 
-namespace poolhall::bots {
+// A namespace of its own: some of its names are another file's.
+namespace poolhall::bots::planner_tests {
 namespace {
 
 using rules::Decision;
@@ -203,4 +204,4 @@ INSTANTIATE_TEST_SUITE_P(
     });
 
 }  // namespace
-}  // namespace poolhall::bots
+}  // namespace poolhall::bots::planner_tests

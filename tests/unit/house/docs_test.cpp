@@ -11,7 +11,8 @@
 
 #include "house_rules.hpp"
 
-namespace poolhall::house {
+// A namespace of its own: some of its names are another file's.
+namespace poolhall::house::docs_tests {
 namespace {
 
 namespace fs = std::filesystem;
@@ -140,4 +141,4 @@ TEST(Storage, NamesEveryFailpoint) {
 }
 
 }  // namespace
-}  // namespace poolhall::house
+}  // namespace poolhall::house::docs_tests
