@@ -59,6 +59,24 @@ TEST(SqliteDatabase, refuses_a_newer_schema_and_says_which) {
   EXPECT_THAT(error.reason, HasSubstr("999"));
 }
 
+TEST(SqliteDatabase, keeps_who_had_left_when_it_takes_over_the_third_schema) {
+  TemporaryDirectory directory;
+  ASSERT_TRUE(open_sqlite(directory / "test.db"));
+  RawSqlite(directory / "test.db")
+      .run(
+          "ALTER TABLE entries ADD COLUMN withdrawn INTEGER NOT NULL DEFAULT 0;"
+          "ALTER TABLE entries DROP COLUMN from_round; ALTER TABLE entries DROP COLUMN until_round;"
+          "INSERT INTO agents VALUES(1, 'anna', x'01', NULL, 0), (2, 'bert', x'02', NULL, 0);"
+          "INSERT INTO tournaments VALUES('cup', 1, 'cup', '', 'open', 0);"
+          "INSERT INTO entries(tournament, agent, place, withdrawn) VALUES('cup', 1, 0, 1),"
+          " ('cup', 2, 1, 0); PRAGMA user_version = 3");
+  const auto entries = open_sqlite(directory / "test.db").value()->entries("cup").value();
+  ASSERT_EQ(entries.size(), 2U);
+  EXPECT_EQ(entries[0].until_round, 0U);
+  EXPECT_EQ(entries[1].until_round, std::nullopt);
+  EXPECT_EQ(entries[0].from_round, 0U);
+}
+
 TEST(SqliteDatabase, says_which_process_owns_the_file) {
   TemporaryDirectory directory;
   auto owner = open_sqlite(directory / "test.db");
