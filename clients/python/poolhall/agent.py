@@ -21,6 +21,21 @@ RETRY_SECONDS = 0.25
 HOPELESS_REFUSALS = 10
 _REFUSALS = {"bad_shot", "bad_call", "bad_cue_ball_position", "bad_decision", "invalid_params"}
 
+# What a table and its materials are made of. A later server may tell more; that is left out.
+_PARTS = set("""
+    name width length pockets nose_height head_string foot_spot x y kind corner side cushion_width
+    angle depth radius jaw_radius gravity ball_radius ball_mass mu_slide mu_roll mu_spin
+    spin_deceleration ball_restitution ball_friction cushion model normal tangential spin
+    restitution friction stiffness damping_ratio cue_mass tip_restitution squirt_end_mass_ratio
+    miscue_limit max_cue_speed separation_speed
+""".split())
+
+
+def _known(part: Any) -> Any:
+    if not isinstance(part, dict):
+        return part
+    return {name: _known(value) for name, value in part.items() if name in _PARTS}
+
 
 class Concede:
     """What `choose` returns to give the game up."""
@@ -388,7 +403,8 @@ class Agent:
         told = None if noise == "hidden" else tuple(noise[key] for key in Shot._fields)
         info = GameInfo(game, terms["match"], terms["tournament"], terms["seat"],
                         terms["opponent"], terms["rules"],
-                        _core.Table(terms["table"], terms["physics"]), told, terms["clock"])
+                        _core.Table(_known(terms["table"]), _known(terms["physics"])), told,
+                        terms["clock"])
         self.settings.log(f"game {game} against {info.opponent}")
         self._desks[game] = _Desk(info)
 

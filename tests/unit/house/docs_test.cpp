@@ -17,7 +17,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path root = POOLHALL_SOURCE_DIR;
+const fs::path house_root = POOLHALL_SOURCE_DIR;
 
 std::string read(const fs::path& file) {
   std::ifstream in(file);
@@ -27,7 +27,7 @@ std::string read(const fs::path& file) {
 // Every page of the house; what is built or fetched lies in folders that are left out.
 std::vector<fs::path> pages() {
   std::vector<fs::path> found;
-  for (const auto& entry : fs::directory_iterator(root)) {
+  for (const auto& entry : fs::directory_iterator(house_root)) {
     const std::string name = entry.path().filename().string();
     if (entry.path().extension() == ".md") {
       found.push_back(entry.path());
@@ -62,8 +62,8 @@ TEST(Pages, AreInEveryRoom) {
   }
   for (const std::string& folder : folders) {
     const bool is_within_another = folder.starts_with("tests/fault/") || folder == "tests/support";
-    if (fs::exists(root / folder) && !is_within_another) {
-      EXPECT_TRUE(fs::exists(root / folder / "README.md")) << folder;
+    if (fs::exists(house_root / folder) && !is_within_another) {
+      EXPECT_TRUE(fs::exists(house_root / folder / "README.md")) << folder;
     }
   }
 }
@@ -75,7 +75,7 @@ TEST(Pages, HaveLinksThatLeadSomewhere) {
     for (const std::string& target : matches(read(page), link)) {
       if (target.find("://") == std::string::npos) {
         EXPECT_TRUE(fs::exists(page.parent_path() / target))
-            << fs::relative(page, root).string() << ": " << target;
+            << fs::relative(page, house_root).string() << ": " << target;
         ++links;
       }
     }
@@ -86,16 +86,16 @@ TEST(Pages, HaveLinksThatLeadSomewhere) {
 // `path/file.cpp`: `Class::function`, `function`
 TEST(Architecture, NamesFunctionsWhereTheyAre) {
   const std::string page =
-      std::regex_replace(read(root / "ARCHITECTURE.md"), std::regex("\\s+"), " ");
+      std::regex_replace(read(house_root / "ARCHITECTURE.md"), std::regex("\\s+"), " ");
   const std::regex step(R"(`([\w/]+/[\w.]+\.(?:cpp|hpp|js))`(:? ?)((?:`[\w:]+`(?:, )?)*))");
   std::size_t functions = 0;
   for (std::sregex_iterator it(page.begin(), page.end(), step), end; it != end; ++it) {
     const std::string file = (*it)[1];
-    ASSERT_TRUE(fs::exists(root / file)) << file;
+    ASSERT_TRUE(fs::exists(house_root / file)) << file;
     if ((*it)[2].str().empty() || (*it)[2].str()[0] != ':') {
       continue;
     }
-    const std::string text = read(root / file);
+    const std::string text = read(house_root / file);
     for (const std::string& name : matches((*it)[3], std::regex("`([\\w:]+)`"))) {
       // Or a method of a class that is written inside it.
       const bool is_there =
@@ -109,8 +109,8 @@ TEST(Architecture, NamesFunctionsWhereTheyAre) {
 }
 
 TEST(Operations, NamesEveryMetric) {
-  const std::string page = read(root / "docs/operations.md");
-  const std::string source = read(root / "server/net/figures.cpp");
+  const std::string page = read(house_root / "docs/operations.md");
+  const std::string source = read(house_root / "server/net/figures.cpp");
   const auto names = matches(source, std::regex(R"re(metric\(out, "([a-z_]+)")re"));
   EXPECT_GT(names.size(), 10U);
   for (const std::string& name : names) {
@@ -119,8 +119,8 @@ TEST(Operations, NamesEveryMetric) {
 }
 
 TEST(Operations, NamesEverySubCommand) {
-  const std::string page = read(root / "docs/operations.md");
-  const std::string source = read(root / "server/app/commands.hpp");
+  const std::string page = read(house_root / "docs/operations.md");
+  const std::string source = read(house_root / "server/app/commands.hpp");
   const auto names = matches(source, std::regex(R"(add_(\w+)_command\()"));
   EXPECT_GT(names.size(), 10U);
   for (const std::string& name : names) {
@@ -129,8 +129,8 @@ TEST(Operations, NamesEverySubCommand) {
 }
 
 TEST(Storage, NamesEveryFailpoint) {
-  const std::string page = read(root / "server/storage/README.md");
-  std::string source = read(root / "server/storage/failpoint.hpp");
+  const std::string page = read(house_root / "server/storage/README.md");
+  std::string source = read(house_root / "server/storage/failpoint.hpp");
   source = source.substr(source.find("enum class Failpoint"));
   source = source.substr(0, source.find("};"));
   const auto names = matches(source, std::regex(R"(\n\s+(\w+),)"));
