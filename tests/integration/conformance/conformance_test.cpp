@@ -49,29 +49,31 @@ Ran conformance(const std::string& command, const std::string& arguments) {
 // ---- Good bots ----
 
 TEST(Conformance, PassesTheBadBotWithoutAFault) {
-  const Ran ran = conformance(python + here + "/bad_bot.py", "--patience 20");
+  const Ran ran = conformance(python + here + "/bad_bot.py", "--patience 20 --jobs 4");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   EXPECT_TRUE(ran.says(" 0 warned, 0 failed, 0 not reached")) << ran.output;
 }
 
 TEST(Conformance, PassesTheHouseBots) {
   for (const char* name : {"random", "greedy"}) {
-    const Ran ran = conformance(
-        std::string(POOLHALL_PROGRAM) + " bot " + name + " --connect {server}", "--patience 20");
+    const Ran ran =
+        conformance(std::string(POOLHALL_PROGRAM) + " bot " + name + " --connect {server}",
+                    "--patience 20 --jobs 4");
     EXPECT_EQ(ran.exit_code, 0) << ran.output;
     EXPECT_TRUE(ran.says(" 0 failed, 0 not reached")) << ran.output;
   }
 }
 
 TEST(Conformance, PassesTheTenLines) {
-  const Ran ran = conformance(TEN_LINES_BOT, "--patience 20");
+  const Ran ran = conformance(TEN_LINES_BOT, "--patience 20 --jobs 4");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   EXPECT_TRUE(ran.says(" 0 failed, ")) << ran.output;
 }
 
 TEST(Conformance, PassesThePythonExample) {
-  const Ran ran = conformance(
-      python + POOLHALL_SOURCE_DIR "/clients/python/example_bot.py {server}", "--patience 20");
+  const Ran ran =
+      conformance(python + POOLHALL_SOURCE_DIR "/clients/python/example_bot.py {server}",
+                  "--patience 20 --jobs 4");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   EXPECT_TRUE(ran.says(" 0 failed, ")) << ran.output;
 }
@@ -80,8 +82,9 @@ TEST(Conformance, PassesTheJavaScriptExample) {
   if (std::system("command -v node > /dev/null") != 0) {
     GTEST_SKIP() << "there is no node";
   }
-  const Ran ran = conformance(
-      "node " POOLHALL_SOURCE_DIR "/clients/javascript/example_bot.js {server}", "--patience 20");
+  const Ran ran =
+      conformance("node " POOLHALL_SOURCE_DIR "/clients/javascript/example_bot.js {server}",
+                  "--patience 20 --jobs 4");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   EXPECT_TRUE(ran.says(" 0 warned, 0 failed, ")) << ran.output;
 }
@@ -102,7 +105,8 @@ std::string tiny_bot() {
 TEST(Conformance, PassesTheTinyBotOfTheProtocolsPage) {
   const test_support::TemporaryDirectory folder;
   std::ofstream(folder / "tiny.py") << tiny_bot();
-  const Ran ran = conformance(python + (folder / "tiny.py").string() + " {port}", "--patience 20");
+  const Ran ran =
+      conformance(python + (folder / "tiny.py").string() + " {port}", "--patience 20 --jobs 4");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
   EXPECT_TRUE(ran.says(" 0 failed, ")) << ran.output;
 }
