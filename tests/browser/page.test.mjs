@@ -45,16 +45,28 @@ async function withPage(options, work) {
   }
 }
 
+/** A game that goes on, with its stream open: the next one, if it has ended meanwhile. */
+async function openLive(page) {
+  await until(async () => {
+    const { games: [live] } = await api('/api/live');
+    if (!live) {
+      return false;
+    }
+    await page.open(at(`/games/${live.game}`));
+    await page.ready(`games/${live.game}`);
+    const over = await page.evaluate(() => window.poolhall.view.game.over);
+    return !over && until(() => page.evaluate(() => document.querySelector('main').dataset.live === 'open'), 'the stream', 3000)
+      .catch(() => false);
+  }, 'a live game is open', 30_000);
+}
+
 const ballsOnScreen = () => {
   const { view } = window.poolhall;
   return view.motion.ballsAt(view.playback.t).map(({ id, x, y }) => ({ id, x, y }));
 };
 
 test('a live game is seen to move', enough, () => withPage({}, async (page) => {
-  const live = await until(async () => (await api('/api/live')).games[0]?.game, 'a game goes on');
-  await page.open(at(`/games/${live}`));
-  await page.ready(`games/${live}`);
-  await page.until(() => document.querySelector('main').dataset.live === 'open', 'the stream is open');
+  await openLive(page);
   const turns = await page.evaluate(() => window.poolhall.view.game.turns.length);
   await page.until((n) => window.poolhall.view.game.turns.length >= n + 3, 'three more turns are told', turns);
   const pixels = () => page.evaluate(() => {
@@ -129,10 +141,7 @@ test('keys play, pause, step from event to event and from shot to shot', enough,
 }));
 
 test('a restart of the server is survived', enough, () => withPage({}, async (page) => {
-  const live = await until(async () => (await api('/api/live')).games[0]?.game, 'a game goes on');
-  await page.open(at(`/games/${live}`));
-  await page.ready(`games/${live}`);
-  await page.until(() => document.querySelector('main').dataset.live === 'open', 'the stream is open');
+  await openLive(page);
   const { http, agents } = server;
   const { tokens } = pair;
   await server.stop('SIGKILL');
