@@ -28,9 +28,8 @@ class CMakeExtension(build_ext):
         if not given:
             tree.mkdir(parents=True, exist_ok=True)
             subprocess.check_call([
-                "cmake", "-S", str(root), "-B", str(tree), "-G", "Ninja",
-                "-DCMAKE_BUILD_TYPE=Release", "-DCMAKE_UNITY_BUILD=ON", "-DPOOLHALL_TESTS=OFF",
-                "-DPOOLHALL_PARTS=python", f"-DPython_EXECUTABLE={sys.executable}"])
+                "cmake", "--preset", "release", "-S", str(root), "-B", str(tree),
+                "-DPOOLHALL_PARTS=python", f"-DPython_EXECUTABLE={sys.executable}"], cwd=root)
         subprocess.check_call(["cmake", "--build", str(tree), "--target", "poolhall_python"])
         target = Path(self.get_ext_fullpath(extension.name)).resolve()
         target.parent.mkdir(parents=True, exist_ok=True)
