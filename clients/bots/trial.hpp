@@ -26,8 +26,10 @@ struct Hall {
   physics::Materials materials;
   std::vector<PocketTarget> pockets;
 
-  Hall(const physics::Table& table, const physics::Materials& materials)
-      : table(table), materials(materials), pockets(pocket_targets(table, materials.ball_radius)) {}
+  Hall(const physics::Table& of_table, const physics::Materials& of_materials)
+      : table(of_table),
+        materials(of_materials),
+        pockets(pocket_targets(of_table, of_materials.ball_radius)) {}
   [[nodiscard]] double radius() const { return materials.ball_radius; }
 };
 
