@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <fstream>
+#include <iterator>
 #include <sstream>
 
 #include "protocol/json_value.hpp"
@@ -124,11 +126,11 @@ TEST_F(StoredGames, are_checked_by_the_program_of_the_page_of_records) {
   const std::string fence = "```python\n";
   const auto begin = page.find(fence) + fence.size();
   std::ofstream(at("check.py")) << page.substr(begin, page.find("```", begin) - begin);
-  const std::string command = "/usr/bin/python3 " + at("check.py") + " " + at("games.jsonl") +
-                              " > " + at("out") + " 2> " + at("err");
-  EXPECT_EQ(WEXITSTATUS(std::system(command.c_str())), 0) << read("err");
-  EXPECT_THAT(read("out"), HasSubstr("1 commitments and the noise of "));
-  EXPECT_THAT(read("out"), Not(HasSubstr(" of 0 shots")));
+  const Ran ran =
+      test_support::run_command("/usr/bin/python3 " + at("check.py") + " " + at("games.jsonl"));
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("1 commitments and the noise of "));
+  EXPECT_THAT(ran.out, Not(HasSubstr(" of 0 shots")));
 }
 
 }  // namespace

@@ -100,7 +100,7 @@ TEST(Trf, WritesTheColumnsOfFidesFormat) {
   const std::vector<EntrySpan> field(3);
   const Schedule drawn = schedule(format, field, happened);
   ASSERT_EQ(drawn.pairings.size(), 1U);
-  happened.results[0] = {{1, 0.5}, true};
+  happened.results[0] = {{{0, 1, true}, {1, 0.5, true}}};
   const Schedule now = schedule(format, field, happened);
   const std::string text = trf16({"cup", 2}, {"anna", "bert", "carl"}, now);
   EXPECT_THAT(text, HasSubstr("012 cup\n"));
