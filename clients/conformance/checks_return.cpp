@@ -117,11 +117,9 @@ void server_is_full(Host& host) {
 
 // The server has not noticed that the old connection is gone, and takes one login a second.
 void login_is_put_off(Host& host) {
-  const protocol::Error later{ErrorCode::rate_limited, "",
-                              "this agent has logged in within the last 1000 ms"};
   HostedGame& game = in_a_game(host);
-  host.refuse_next(protocol::Method::login, later);
-  host.refuse_next(protocol::Method::register_agent, later);
+  host.refuse_next(protocol::Method::login, {ErrorCode::rate_limited, "",
+                                             "this agent has logged in within the last 1000 ms"});
   host.cut(Cut::close);
   comes_back_and_goes_on(host, game);
 }

@@ -151,6 +151,7 @@ void Host::connected(std::unique_ptr<Link> link) {
   transcript_.note("the bot has connected");
   link_ = std::move(link);
   stage_ = Stage::silent;
+  login_refused_ = false;
   seq_ = 0;
   probes_.clear();
 }
@@ -203,16 +204,16 @@ void Host::arrive(Verdict absent) {
 }
 
 void Host::expect_return() {
+  constexpr int most_starts = 3;
   const std::string before = identity_;
   bool came = log_in_until(Clock::now() + options_.patience);
-  if (!came && !bot_.runs()) {
+  for (int starts = 0; !came && !bot_.runs() && starts < most_starts; ++starts) {
     transcript_.note("it is started again, as a tournament does");
     bot_.start(server_, token_.text);
     came = log_in_until(Clock::now() + options_.patience);
-    if (!came) {
-      throw Stop{Verdict::failure, "started again after it had ended, it did not log in within " +
-                                       seconds(options_.patience)};
-    }
+  }
+  if (!came && !bot_.runs()) {
+    throw Stop{Verdict::failure, "started again and again, it ended without a login"};
   }
   if (!came) {
     throw Stop{Verdict::failure,

@@ -197,6 +197,7 @@ class Host {
   protocol::EventDetail detail_ = protocol::EventDetail::full;
   enum class Stage : std::uint8_t { silent, greeted, in } stage_ = Stage::silent;
   int sessions_ = 0;
+  bool login_refused_ = false;  // on this connection
   int lines_read_ = 0;
 
   // What is going on.

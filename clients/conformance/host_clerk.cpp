@@ -83,6 +83,7 @@ bool Host::take_login(const protocol::RequestId& id, const protocol::Request& re
   if (const auto refusal = refusals_.find(method); refusal != refusals_.end()) {
     refuse(id, refusal->second);
     refusals_.erase(refusal);
+    login_refused_ = true;
     return false;
   }
   if (const auto* login = std::get_if<protocol::Login>(&request)) {
@@ -98,8 +99,10 @@ bool Host::take_login(const protocol::RequestId& id, const protocol::Request& re
     logged_in(id, asked->token.value_or(client::random_token()), asked->name, request);
     return true;
   }
-  broke(duties::hello_first, Verdict::failure,
-        std::string(protocol::name(method)) + " came before login or register");
+  if (!login_refused_) {  // else it was sent in the hope of a login
+    broke(duties::hello_first, Verdict::failure,
+          std::string(protocol::name(method)) + " came before login or register");
+  }
   refuse(id, {ErrorCode::not_logged_in, "/method", "expected login or register first"});
   return false;
 }
