@@ -18,8 +18,10 @@ namespace {
 
 // Lines that may wait while a login is being stored; a polite client sends one or none.
 constexpr std::size_t held_lines = 32;
-// Requests refused for coming too fast, in a row, after which the connection is a flood.
+// Requests refused for coming too fast after which the connection is a flood; each that is in time
+// makes up for so many of them.
 constexpr std::uint32_t flood = 1'000;
+constexpr std::uint32_t forgiven = 4;
 // What a shot's line has beside its events, at most: two states' worth and a ruling.
 constexpr std::size_t beside_events = 16 * 1024;
 
@@ -173,7 +175,7 @@ void Session::on_line(std::string_view line, SteadyTime read_at) {
 
 bool Session::within_rate(const protocol::Incoming& incoming, SteadyTime read_at) {
   if ((agent_ && lobby_.is_awaited(*agent_, incoming.request)) || bucket_.take(read_at)) {
-    refused_for_rate_ = 0;
+    refused_for_rate_ -= std::min(refused_for_rate_, forgiven);
     return true;
   }
   const auto& limits = lobby_.limits();

@@ -348,7 +348,7 @@ BadVisit floods_with_long_lines(std::uint16_t port, EndLog&) {
   std::string line = protocol::encode_request(10, protocol::Sync{protocol::GameId{1'000'000}});
   line.insert(1, "\"pad\":\"" + std::string(16'000, 'x') + "\",");
   std::thread talker([&] {
-    for (std::size_t i = 0; i < 2'500; ++i) {
+    for (std::size_t i = 0; i < 20'000; ++i) {
       rude.say(line);
     }
   });
