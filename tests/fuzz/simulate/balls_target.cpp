@@ -131,14 +131,14 @@ void add_ball(Bytes& in, Scene<double>& scene) {
 
 SimulationOptions options_of(Bytes& in, const Cushion& cushion) {
   constexpr std::array models{ContactModel::cluster, ContactModel::sequential};
-  const unsigned model = in.next() % 8;
+  const unsigned model = in.next() % 32;
   SimulationOptions options{.contact = models[model % models.size()], .event_limit = 60};
   // What is integrated in small steps is a thousand times slower: seldom, and few events of it.
-  if (model == 7) {
+  if (model == 31) {
     options.contact = ContactModel::hertz;
-    options.event_limit = 8;
+    options.event_limit = 3;
   } else if (std::holds_alternative<Mathavan2010Cushion>(cushion)) {
-    options.event_limit = 8;
+    options.event_limit = 3;
   }
   if (in.next() % 4 == 0) {
     options.t_max = std::abs(number_of(in, 10));
