@@ -11,6 +11,7 @@
 #include <array>
 
 #include "physics/ball_collision.hpp"
+#include "physics/energy.hpp"
 #include "physics/generalized_reflections.hpp"
 #include "physics/hertz_impact.hpp"
 #include "physics/simulator.hpp"
@@ -171,8 +172,11 @@ class ContactCluster {
                            reflections_.impulse(contact)};
   }
 
-  // Pair by pair from the accumulated normal impulse and the slip before the impact.
+  // Pair by pair from the accumulated normal impulse and the slip before the impact. That is not
+  // the slip on which the impulses then act: where the cluster would win energy by its friction,
+  // all of it is scaled down to what takes the most, as sticking is to a pair.
   void rub_all(const Balls& before, Balls& balls, const BallFriction& friction) const {
+    const Balls smooth = balls;
     for (std::size_t n = 0; n < hit_count_; ++n) {
       const Ball<Real>& first = before[hits_[n].first];
       const Ball<Real>& second = before[hits_[n].second];
@@ -180,6 +184,32 @@ class ContactCluster {
       const ContactSlip<Real> slip = contact_slip(first, second, normal, c_.radius);
       rub(balls[hits_[n].first], balls[hits_[n].second], normal, hits_[n].impulse, slip, c_,
           friction);
+    }
+    // What a share of the impulses wins: linear * share + square * share^2.
+    Real won(0), square(0), scale(0);
+    for (std::size_t p = 0; p < graph_.balls(); ++p) {
+      const Ball<Real>& with = balls[member_[p]];
+      const Ball<Real>& without = smooth[member_[p]];
+      Ball<Real> change;
+      change.velocity = with.velocity - without.velocity;
+      change.angular_velocity = with.angular_velocity - without.angular_velocity;
+      square += kinetic_energy(change, c_);
+      scale += kinetic_energy(without, c_);
+      won += kinetic_energy(with, c_) - kinetic_energy(without, c_);
+    }
+    if (won > Real(1e-13) * scale) {
+      const Real linear = won - square;
+      lessen(smooth, balls, linear < Real(0) ? Real(-linear / (square + square)) : Real(0));
+    }
+  }
+
+  void lessen(const Balls& smooth, Balls& balls, const Real& share) const {
+    for (std::size_t p = 0; p < graph_.balls(); ++p) {
+      Ball<Real>& ball = balls[member_[p]];
+      const Ball<Real>& without = smooth[member_[p]];
+      ball.velocity = without.velocity + share * (ball.velocity - without.velocity);
+      ball.angular_velocity =
+          without.angular_velocity + share * (ball.angular_velocity - without.angular_velocity);
     }
   }
 

@@ -8,6 +8,6 @@
 
 namespace poolhall::physics {
 
-inline constexpr std::string_view version = "physics-3";
+inline constexpr std::string_view version = "physics-4";
 
 }  // namespace poolhall::physics
