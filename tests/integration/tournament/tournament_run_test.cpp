@@ -9,6 +9,9 @@
 #include <string>
 
 #include "program.hpp"
+#include "server/ledger/check.hpp"
+#include "server/storage/sqlite_database.hpp"
+#include "tests/support/raw_sqlite.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace poolhall::tournament {
@@ -85,6 +88,42 @@ TEST_F(TournamentRun, KilledAndStartedAgainItGoesOnToTheEnd) {
   EXPECT_EQ(over.wait(), 0);
   const auto final_of = [](const std::string& text) { return text.substr(text.rfind("\n#  ")); };
   EXPECT_EQ(final_of(table), final_of(output)) << "a finished tournament shows its table again";
+}
+
+TEST_F(TournamentRun, AChangeInWhatIsStoredBesideItsGamesIsFound) {
+  write("cup.toml", two_random_bots);
+  Program program = run({"cup.toml"});
+  const std::string output = program.rest();
+  ASSERT_EQ(program.wait(), 0) << output;
+  const auto differences = [this] {
+    const auto reader = storage::open_sqlite_reader(directory_ / "cup.db").value();
+    return ledger::check_tournaments(*reader).value();
+  };
+  EXPECT_THAT(differences(), testing::IsEmpty());
+  struct Change {
+    std::string made;
+    std::string undone;
+    std::string found;
+  };
+  for (const Change& change : std::vector<Change>{
+           {"UPDATE final_standings SET points = points + 1 WHERE place = 0",
+            "UPDATE final_standings SET points = points - 1 WHERE place = 0", "row 1"},
+           {"UPDATE agents SET name = 'twp' WHERE name = 'two'",
+            "UPDATE agents SET name = 'two' WHERE name = 'twp'", "pairing 0: stored one"},
+           {"UPDATE entries SET until_round = 0 WHERE place = 0",
+            "UPDATE entries SET until_round = NULL WHERE place = 0", "not in the schedule"},
+           {"UPDATE tournaments SET settings = replace(settings, '\"two\"', '\"twp\"')",
+            "UPDATE tournaments SET settings = replace(settings, '\"twp\"', '\"two\"')",
+            "pairing 0: stored one"},
+           {"UPDATE matches SET pairing = 1", "UPDATE matches SET pairing = 0",
+            "pairing 1 is not in the schedule"}}) {
+    test_support::RawSqlite(directory_ / "cup.db").run(change.made);
+    EXPECT_THAT(differences(), testing::ElementsAre(testing::AllOf(HasSubstr("tournament cup: "),
+                                                                   HasSubstr(change.found))))
+        << change.made;
+    test_support::RawSqlite(directory_ / "cup.db").run(change.undone);
+    EXPECT_THAT(differences(), testing::IsEmpty()) << change.undone;
+  }
 }
 
 TEST_F(TournamentRun, InterruptedItSaysHowToGoOn) {
