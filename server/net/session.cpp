@@ -18,10 +18,14 @@ namespace {
 
 // Lines that may wait while a login is being stored; a polite client sends one or none.
 constexpr std::size_t held_lines = 32;
-// Requests refused for coming too fast after which the connection is a flood; each that is in time
-// makes up for so many of them.
+// Requests refused for coming too fast, and not as slowly as they might have come, after which the
+// connection is a flood.
 constexpr std::uint32_t flood = 1'000;
-constexpr std::uint32_t forgiven = 4;
+
+std::uint32_t whole(double number) {
+  return static_cast<std::uint32_t>(std::lround(number));
+}
+
 // What a shot's line has beside its events, at most: two states' worth and a ruling.
 constexpr std::size_t beside_events = 16 * 1024;
 
@@ -63,8 +67,8 @@ void Asker::refuse(const Error& error) const {
 Session::Session(std::shared_ptr<Connection> connection, Lobby& lobby)
     : connection_(std::move(connection)),
       lobby_(lobby),
-      bucket_(static_cast<std::uint32_t>(std::lround(lobby.limits().messages_per_second)),
-              static_cast<std::uint32_t>(std::lround(lobby.limits().message_burst))) {}
+      bucket_(whole(lobby.limits().messages_per_second), whole(lobby.limits().message_burst)),
+      refusals_(whole(lobby.limits().messages_per_second), flood) {}
 
 void Session::begin() {
   const auto wait = lobby_.limits().login_deadline;
@@ -175,14 +179,13 @@ void Session::on_line(std::string_view line, SteadyTime read_at) {
 
 bool Session::within_rate(const protocol::Incoming& incoming, SteadyTime read_at) {
   if ((agent_ && lobby_.is_awaited(*agent_, incoming.request)) || bucket_.take(read_at)) {
-    refused_for_rate_ -= std::min(refused_for_rate_, forgiven);
     return true;
   }
   const auto& limits = lobby_.limits();
   const Error error{ErrorCode::rate_limited, "",
                     fmt::format("more than {} messages a second (burst {})",
                                 limits.messages_per_second, limits.message_burst)};
-  if (++refused_for_rate_ >= flood) {
+  if (!refusals_.take(read_at)) {
     close(error);
   } else if (incoming.id) {
     refuse(*incoming.id, error);

@@ -118,8 +118,8 @@ class Session : public Connection::Handler, public std::enable_shared_from_this<
   std::vector<std::string> held_;  // lines that came while the login was under way
   std::uint64_t seq_ = 0;
   std::uint32_t bad_lines_ = 0;
-  std::uint32_t refused_for_rate_ = 0;  // less what has been made up for
   web::TokenBucket bucket_;
+  web::TokenBucket refusals_;  // for coming too fast
   LagMeter lag_;
 };
 

@@ -3,6 +3,7 @@
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <charconv>
 #include <chrono>
 #include <condition_variable>
@@ -32,16 +33,20 @@ class EndLog::Sink final : public spdlog::sinks::base_sink<std::mutex> {
   void sink_it_(const spdlog::details::log_msg& message) override {
     const std::string_view text(message.payload.data(), message.payload.size());
     const std::size_t ended = text.find(" has ended");
-    const std::size_t why = ended == std::string_view::npos ? ended : text.find(": ", ended);
-    if (!text.starts_with("connection ") || why == std::string_view::npos) {
+    if (!text.starts_with("connection ")) {
       return;
     }
     const std::size_t colon = text.rfind(':', ended);
     std::uint16_t port = 0;
-    std::from_chars(text.data() + colon + 1, text.data() + ended, port);
+    std::from_chars(text.data() + colon + 1, text.data() + std::min(ended, text.size()), port);
+    const std::size_t why = ended == std::string_view::npos ? ended : text.find(": ", ended);
     const std::lock_guard lock(ends_mutex_);
-    ends_.insert_or_assign(port, std::string(text.substr(why + 2)));
-    ended_.notify_all();
+    if (why == std::string_view::npos) {
+      ends_.erase(port);  // a new connection from a port that an older one had
+    } else {
+      ends_.insert_or_assign(port, std::string(text.substr(why + 2)));
+      ended_.notify_all();
+    }
   }
   void flush_() override {}
 
