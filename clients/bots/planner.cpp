@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
 
 #include "clients/bots/random_bot.hpp"
@@ -30,8 +31,8 @@ bool is_silent(const physics::NoiseLevel& noise) {
   return noise.a == 0 && noise.b == 0 && noise.theta == 0 && noise.phi == 0 && noise.speed == 0;
 }
 
-Dice dice_of(Dice::Key key, Purpose purpose) {
-  return Dice(key, 0x80000000U + static_cast<std::uint32_t>(purpose));
+Dice dice_of(Dice::Key key, Purpose purpose, std::uint32_t number = 0) {
+  return Dice(key, 0x80000000U + 16 * number + static_cast<std::uint32_t>(purpose));
 }
 
 std::vector<physics::ShotDeviates> drawn_deviates(Dice dice) {
@@ -88,10 +89,6 @@ double Planner::mover_wins(const rules::GameState& state) {
 
 Planner::Plans Planner::plans_for(const Position& position, const Budget& budget) {
   const PlanSources sources{hall_, outlook_, noise_, workshop_};
-  if (position.kind == rules::TurnKind::break_shot) {
-    const auto count = std::clamp<std::uint64_t>(budget.effort / 1'000, 60, 600);
-    return break_plans(position, sources, dice_of(key_, Purpose::breaks), count);
-  }
   Plans plans = pot_plans(position, sources);
   const bool in_hand = is_ball_in_hand(position.kind);
   if (!plans.empty() && (in_hand || plans.front().value > look_around_below)) {
@@ -148,15 +145,16 @@ bool Planner::meet_noise(Plans& plans, std::size_t samples, Depth depth) {
   return true;
 }
 
-void Planner::weed(Plans& plans, const std::vector<Round>& rounds) {
+bool Planner::weed(Plans& plans, const std::vector<Round>& rounds) {
   best_first(plans);
   for (const Round& round : rounds) {
     plans.resize(std::min(plans.size(), round.keep));
     if (!meet_noise(plans, round.samples, Depth::outlook)) {
-      return;
+      return false;
     }
     best_first(plans);
   }
+  return true;
 }
 
 // Plans that are worse beyond doubt go, the others meet more noise, until one is left or the effort
@@ -178,19 +176,42 @@ void Planner::compare(Plans& plans, std::uint64_t until) {
   }
 }
 
+// Breaks come in batches: whenever the time is up the best of those that have met enough noise is
+// at hand.
+std::optional<client::Shot> Planner::best_break(const Position& position, std::uint64_t until) {
+  constexpr std::size_t batch_size = 64;
+  constexpr std::uint32_t most_batches = 12;
+  constexpr std::size_t kept_of_a_batch = 2;
+  const PlanSources sources{hall_, outlook_, noise_, workshop_};
+  Plans best;
+  for (std::uint32_t batch = 0; batch < most_batches; ++batch) {
+    Plans plans = break_plans(position, sources, dice_of(key_, Purpose::breaks, batch), batch_size);
+    const bool all = weed(plans, {{batch_size, 8}, {24, 16}, {12, 32}, {4, 64}});
+    plans.resize(std::min(plans.size(), kept_of_a_batch));
+    if (all || best.empty()) {
+      std::ranges::move(plans, std::back_inserter(best));
+    }
+    if (!all || workshop_.events() >= until) {
+      break;
+    }
+  }
+  (void)weed(best, {{most_batches * kept_of_a_batch, 128}, {8, 256}});
+  return best.empty() ? std::nullopt : std::optional{best.front().shot};
+}
+
 std::optional<client::Shot> Planner::best_shot(const rules::GameState& state,
                                                const Budget& budget) {
   workshop_.set_deadline(budget.deadline);
   const std::uint64_t begin = workshop_.events();
-  Plans plans = plans_for(position_of(state), budget);
+  const Position position = position_of(state);
+  if (position.kind == rules::TurnKind::break_shot) {
+    return best_break(position, begin + budget.effort * 3 / 4);
+  }
+  Plans plans = plans_for(position, budget);
   if (plans.empty()) {
     return std::nullopt;
   }
-  if (state.kind == rules::TurnKind::break_shot) {
-    weed(plans, {{600, 8}, {200, 16}, {100, 32}, {50, 64}, {24, 128}, {12, 256}});
-    return plans.front().shot;
-  }
-  weed(plans, {{160, 4}, {80, 8}, {40, 16}});
+  (void)weed(plans, {{160, 4}, {80, 8}, {40, 16}});
   plans.resize(std::min(plans.size(), most_compared));
   if (workshop_.events() - begin < budget.effort) {
     compare(plans, begin + budget.effort);

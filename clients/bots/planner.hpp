@@ -46,9 +46,12 @@ class Planner {
     std::size_t samples = 0;  // that each has met after it
   };
 
+  [[nodiscard]] std::optional<client::Shot> best_break(const Position& position,
+                                                       std::uint64_t until);
   [[nodiscard]] Plans plans_for(const Position& position, const Budget& budget);
   [[nodiscard]] bool meet_noise(Plans& plans, std::size_t samples, Depth depth);
-  void weed(Plans& plans, const std::vector<Round>& rounds);
+  // Says whether all rounds were played before the deadline.
+  bool weed(Plans& plans, const std::vector<Round>& rounds);
   void compare(Plans& plans, std::uint64_t until);
 
   Hall hall_;
