@@ -72,19 +72,19 @@ set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-set(CPACK_COMPONENT_PROGRAM_DESCRIPTION
+set(CPACK_DEBIAN_PROGRAM_DESCRIPTION
   "Tournament server for computational pool\n Bots connect over TCP and play 8-ball or nine-ball; the server owns the table,\n adds noise, simulates, referees, stores and rates.")
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_SECTION games)
 set(CPACK_DEBIAN_PROGRAM_PACKAGE_CONTROL_EXTRA "${CMAKE_SOURCE_DIR}/packaging/conffiles"
   "${CMAKE_SOURCE_DIR}/packaging/postinst" "${CMAKE_SOURCE_DIR}/packaging/prerm"
   "${CMAKE_SOURCE_DIR}/packaging/postrm")
 
-set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION
+set(CPACK_DEBIAN_DEVELOPMENT_DESCRIPTION
   "Libraries for pool bots in C++\n The simulator, the referee, the protocol and a client, as static libraries\n with headers and a CMake package.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_DEPENDS "libboost1.81-dev, libssl-dev, libexpected-dev")
 
-set(CPACK_COMPONENT_PYTHON_DESCRIPTION
+set(CPACK_DEBIAN_PYTHON_DESCRIPTION
   "Python package for pool bots\n The simulator, the referee and a client.")
 set(CPACK_DEBIAN_PYTHON_PACKAGE_SECTION python)
 string(REGEX MATCH "^([0-9]+)\\.([0-9]+)" matched "${POOLHALL_PYTHON_VERSION}")
