@@ -136,7 +136,9 @@ void follows_the_opponents_shot(Host& host) {
   GamePlan plan;
   plan.seat = rules::Seat::second;
   HostedGame& game = host.begin(std::move(plan));
-  goes_on(host, game);
+  host.play_opponent(game);
+  host.serve_for(milliseconds{200});  // the turn is not handed out yet
+  host.play_turn(game);
 }
 
 void follows_the_opponents_decision(Host& host) {

@@ -123,7 +123,7 @@ class PlantedFault : public testing::TestWithParam<Fault> {};
 TEST_P(PlantedFault, IsFoundByTheCheckThatIsMeantForIt) {
   const auto [name, check] = GetParam();
   const Ran ran = conformance(python + here + "/bad_bot.py --fault " + name,
-                              std::string("--clock 2 --patience 4 --only ") + check);
+                              std::string("--clock 3 --patience 12 --only ") + check);
   EXPECT_EQ(ran.exit_code, 1) << ran.output;
   EXPECT_TRUE(ran.says(std::string("FAIL        ") + check + " ")) << ran.output;
 }
