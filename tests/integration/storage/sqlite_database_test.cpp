@@ -204,11 +204,12 @@ std::uint32_t write_beside_checkpoints(const std::filesystem::path& file, Databa
   TurnRecord turn = sample_turn(1, 1);
   turn.shot->events = std::string(20'000, ' ');
   constexpr std::uint32_t most = 200'000;
+  constexpr std::uint32_t least = 128;  // several times what the log may hold
   for (std::uint32_t number = 1; number <= most; ++number) {
     turn.number = number;
     if (!database.begin() || !database.append_turn(turn) || !database.commit())
       return 0;
-    if (number % 16 == 0 && times_begun_anew(file) >= 2)
+    if (number % 16 == 0 && number >= least && times_begun_anew(file) >= 2)
       return number;
   }
   return 0;
