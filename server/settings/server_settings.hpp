@@ -31,17 +31,17 @@ struct TlsSettings {
 };
 
 struct ServerSettings {
-  std::string name = "poolhall";          // told to agents
-  std::string listen = "127.0.0.1:7777";  // agents
-  std::string http = "127.0.0.1:8080";    // page and JSON API
-  std::string database = "poolhall.db";   // file
-  std::string registration = "open";      // open: any agent may register; closed
-  std::uint32_t worker_threads = 0;       // for physics; 0: one a core
-  std::uint32_t max_house_bots = 16;      // processes
+  std::string name = "poolhall";              // told to agents
+  std::string listen = "127.0.0.1:7777";      // agents
+  std::string http = "127.0.0.1:8080";        // page and JSON API
+  std::string database = "poolhall.db";       // file
+  std::string registration = "open";          // open: any agent may register; closed
+  std::uint32_t worker_threads = 0;           // for physics; 0: one a core
+  std::uint32_t max_house_bots = 16;          // processes
   std::uint32_t simulations_per_second = 10;  // of the page's workbench, for each address
   std::chrono::milliseconds spectator_delay{0};
-  bool plain_beyond_loopback = false;     // unencrypted, for other machines
-  std::string admin_token_file;           // made if it does not exist; empty: no admin calls
+  bool plain_beyond_loopback = false;  // unencrypted, for other machines
+  std::string admin_token_file;        // made if it does not exist; empty: no admin calls
   TlsSettings tls;
   LogSettings log;
   protocol::Limits limits;
