@@ -242,6 +242,8 @@ bool Host::comes_back_within(milliseconds time) {
 void Host::cut(Cut how) {
   if (link_ && how == Cut::reset) {
     link_->reset();
+  } else if (link_) {
+    link_->finish();
   }
   transcript_.note(how == Cut::reset ? "the server resets the connection"
                                      : "the server closes the connection");

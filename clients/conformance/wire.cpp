@@ -19,6 +19,8 @@ namespace {
 
 constexpr int unread_ms = 10'000;
 constexpr int backlog = 16;
+// For the other end to close too.
+constexpr std::chrono::seconds farewell{1};
 constexpr std::size_t crumb = 7;
 // Between two segments: long enough that a reader sees them apart, now and then.
 constexpr std::chrono::microseconds segment_pause{20};
@@ -91,6 +93,20 @@ bool Link::send_all(std::string_view bytes) {
     }
   }
   return true;
+}
+
+void Link::finish() {
+  ::shutdown(descriptor_, SHUT_WR);
+  const auto deadline = std::chrono::steady_clock::now() + farewell;
+  while (true) {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(
+        deadline - std::chrono::steady_clock::now());
+    pollfd readable{descriptor_, POLLIN, 0};
+    if (left.count() <= 0 || ::poll(&readable, 1, static_cast<int>(left.count())) <= 0 ||
+        ::recv(descriptor_, chunk_.data(), chunk_.size(), MSG_DONTWAIT) <= 0) {
+      return;
+    }
+  }
 }
 
 void Link::reset() {

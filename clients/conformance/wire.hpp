@@ -47,6 +47,9 @@ class Link {
   [[nodiscard]] Got take_line();
   // False if the other end is gone or does not read for ten seconds.
   bool send(std::string_view bytes, Pace pace);
+  // Ends as a server does that stops: the other end gets all that was sent and then the end of the
+  // stream. Closing at once would take both from it (RST) where a line of its own is still unread.
+  void finish();
   // Closes with RST instead of FIN.
   void reset();
 

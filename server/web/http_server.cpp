@@ -6,7 +6,6 @@
 #include <sys/socket.h>
 
 #include <fmt/format.h>
-#include <array>
 #include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
@@ -15,18 +14,16 @@
 #include <boost/asio/steady_timer.hpp>
 #include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
 #include <boost/beast/http/write.hpp>
-#include <boost/beast/ssl.hpp>
 #include <boost/beast/websocket.hpp>
-#include <boost/beast/websocket/ssl.hpp>
 #include <optional>
 #include <utility>
 
 #include "server/web/http_head.hpp"
 #include "server/web/pages.hpp"
+#include "server/web/wire.hpp"
 
 namespace poolhall::web {
 
@@ -40,9 +37,6 @@ namespace {
 
 constexpr auto awaited = asio::as_tuple(asio::use_awaitable);
 constexpr std::chrono::seconds patience{30};
-constexpr std::chrono::seconds handshake_patience{10};
-constexpr std::chrono::seconds farewell{2};
-constexpr std::size_t farewell_bytes = 1024 * 1024;
 constexpr std::size_t connections = 4096;
 constexpr std::size_t connections_from_one = 2048;  // a whole lecture hall may share an address
 constexpr std::chrono::milliseconds breath{100};
@@ -71,26 +65,6 @@ bool is_for(std::string_view name, SSL_CTX* certified) {
           X509_check_ip_asc(certificate, text.c_str(), 0) == 1);
 }
 
-// So that what was said last is not lost with what the other side still sends.
-template <class Stream>
-asio::awaitable<void> part_from(Stream& stream) {
-  beast::get_lowest_layer(stream).expires_after(farewell);
-  if constexpr (requires { stream.async_shutdown(awaited); }) {
-    co_await stream.async_shutdown(awaited);
-  }
-  boost::system::error_code ignored;
-  beast::get_lowest_layer(stream).socket().shutdown(tcp::socket::shutdown_send, ignored);
-  std::array<char, 4096> bytes;
-  for (std::size_t total = 0; total < farewell_bytes;) {
-    const auto [failed, got] =
-        co_await beast::get_lowest_layer(stream).async_read_some(asio::buffer(bytes), awaited);
-    if (failed) {
-      co_return;
-    }
-    total += got;
-  }
-}
-
 using Parser = http::request_parser<http::string_body>;
 
 // The request, or what to say instead and whether it is worth saying anything.
@@ -99,13 +73,12 @@ struct Reading {
   std::optional<Page> refusal{};
 };
 
-template <class Stream>
-asio::awaitable<Reading> read_request(Stream& stream, beast::flat_buffer& buffer) {
+asio::awaitable<Reading> read_request(Wire& wire, beast::flat_buffer& buffer) {
   Parser parser;
   parser.header_limit(header_bytes);
   parser.body_limit(boost::none);  // until it is known where it goes
-  beast::get_lowest_layer(stream).expires_after(patience);
-  if (const auto [failed, got] = co_await http::async_read_header(stream, buffer, parser, awaited);
+  wire.expires_after(patience);
+  if (const auto [failed, got] = co_await http::async_read_header(wire, buffer, parser, awaited);
       failed) {
     co_return Reading{{}, refusal_of(failed)};
   }
@@ -115,18 +88,18 @@ asio::awaitable<Reading> read_request(Stream& stream, beast::flat_buffer& buffer
   }
   parser.body_limit(limit);
   if (beast::iequals(parser.get()[http::field::expect], "100-continue")) {
-    co_await asio::async_write(stream, asio::buffer(go_on), awaited);
+    co_await asio::async_write(wire, asio::buffer(go_on), awaited);
   }
-  if (const auto [failed, got] = co_await http::async_read(stream, buffer, parser, awaited);
-      failed) {
+  if (const auto [failed, got] = co_await http::async_read(wire, buffer, parser, awaited); failed) {
     co_return Reading{
         {}, failed == http::error::body_limit ? too_long_a_body(limit) : refusal_of(failed)};
   }
   co_return Reading{parser.release(), {}};
 }
 
+using Socket = websocket::stream<Wire, false>;
+
 // What a spectator sends is read and forgotten, so that its pongs and its end are seen.
-template <class Socket>
 asio::awaitable<void> listen_to(std::shared_ptr<Socket> socket,
                                 std::shared_ptr<Spectator> spectator) {
   beast::flat_buffer ignored;
@@ -138,7 +111,6 @@ asio::awaitable<void> listen_to(std::shared_ptr<Socket> socket,
   spectator->leave();
 }
 
-template <class Socket>
 asio::awaitable<void> tell(std::shared_ptr<Socket> socket, std::shared_ptr<Spectator> spectator,
                            LiveFeed& feed, Topic topic) {
   while (!spectator->has_left()) {
@@ -251,52 +223,38 @@ void HttpServer::welcome(tcp::socket socket, const Door& door) {
       open_from_.erase(from);
     }
   };
-  if (door.tls == nullptr) {
-    asio::co_spawn(io_, serve(beast::tcp_stream{std::move(socket)}, std::move(visitor)), gone);
-  } else {
-    asio::co_spawn(io_, shake_hands(std::move(socket), std::move(visitor)), gone);
-  }
+  asio::co_spawn(io_, serve(Wire{std::move(socket), door.tls}, std::move(visitor)), gone);
 }
 
-asio::awaitable<void> HttpServer::shake_hands(tcp::socket socket, Visitor visitor) {
-  beast::ssl_stream<beast::tcp_stream> stream{beast::tcp_stream{std::move(socket)},
-                                              *visitor.door.tls};
-  beast::get_lowest_layer(stream).expires_after(handshake_patience);
-  if (const auto [failed] =
-          co_await stream.async_handshake(asio::ssl::stream_base::server, awaited);
-      !failed) {
-    co_await serve(std::move(stream), std::move(visitor));
+asio::awaitable<void> HttpServer::serve(Wire wire, Visitor visitor) {
+  if (co_await wire.shake_hands()) {
+    co_return;
   }
-}
-
-template <class Stream>
-asio::awaitable<void> HttpServer::serve(Stream stream, Visitor visitor) {
   beast::flat_buffer buffer{header_bytes + Site::most_body_bytes};
   for (bool keep = true; keep;) {
-    Reading reading = co_await read_request(stream, buffer);
+    Reading reading = co_await read_request(wire, buffer);
     if (reading.refusal) {
       auto response = response_of(std::move(*reading.refusal), Request{});
       response.keep_alive(false);
-      co_await http::async_write(stream, response, awaited);
+      co_await http::async_write(wire, response, awaited);
     }
     if (!reading.request) {
       break;
     }
     Request request = std::move(*reading.request);
     if (websocket::is_upgrade(request)) {
-      co_await spectate(std::move(stream), std::move(request), std::move(visitor));
+      co_await spectate(std::move(wire), std::move(request), std::move(visitor));
       co_return;
     }
     const auto response = response_of(co_await page_for(request, visitor), request);
-    beast::get_lowest_layer(stream).expires_after(patience);
-    const auto [broken, sent] = co_await http::async_write(stream, response, awaited);
+    wire.expires_after(patience);
+    const auto [broken, sent] = co_await http::async_write(wire, response, awaited);
     keep = request.keep_alive() && !broken;
   }
-  co_await part_from(stream);
+  co_await wire.part();
 }
 
-template <class Stream>
-asio::awaitable<void> HttpServer::spectate(Stream stream, Request request, Visitor visitor) {
+asio::awaitable<void> HttpServer::spectate(Wire wire, Request request, Visitor visitor) {
   const std::string_view host = text_of(request[http::field::host]);
   const std::string_view origin = text_of(request[http::field::origin]);
   const auto topic = topic_of(text_of(request.target()));
@@ -305,14 +263,12 @@ asio::awaitable<void> HttpServer::spectate(Stream stream, Request request, Visit
         topic ? refusal(403, "wrong_origin", "this page may not watch here")
               : refusal(404, "not_found", "expected /ws/lobby or /ws/games/ and a game's number"),
         request);
-    co_await http::async_write(stream, response, awaited);
+    co_await http::async_write(wire, response, awaited);
     co_return;
   }
-  beast::get_lowest_layer(stream).expires_never();
-  boost::system::error_code ignored;
-  beast::get_lowest_layer(stream).socket().set_option(tcp::socket::send_buffer_size(socket_buffer),
-                                                      ignored);
-  auto socket = std::make_shared<websocket::stream<Stream, false>>(std::move(stream));
+  wire.expires_never();
+  wire.limit_send_buffer(socket_buffer);
+  auto socket = std::make_shared<Socket>(std::move(wire));
   socket->set_option(websocket::stream_base::timeout::suggested(beast::role_type::server));
   socket->read_message_max(spectator_message);
   socket->auto_fragment(false);

@@ -28,6 +28,8 @@
 
 namespace poolhall::web {
 
+class Wire;
+
 class HttpServer {
  public:
   struct Options {
@@ -67,12 +69,8 @@ class HttpServer {
 
   boost::asio::awaitable<void> accept_loop(Door& door);
   void welcome(boost::asio::ip::tcp::socket socket, const Door& door);
-  [[nodiscard]] boost::asio::awaitable<void> shake_hands(boost::asio::ip::tcp::socket socket,
-                                                         Visitor visitor);
-  template <class Stream>
-  boost::asio::awaitable<void> serve(Stream stream, Visitor visitor);
-  template <class Stream>
-  boost::asio::awaitable<void> spectate(Stream stream, Request request, Visitor visitor);
+  boost::asio::awaitable<void> serve(Wire wire, Visitor visitor);
+  boost::asio::awaitable<void> spectate(Wire wire, Request request, Visitor visitor);
   boost::asio::awaitable<Page> page_for(const Request& request, const Visitor& visitor);
   [[nodiscard]] static bool is_own_host(std::string_view host, const Door& door);
 

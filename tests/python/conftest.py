@@ -54,6 +54,13 @@ class Server:
         self.log.close()
 
 
+def start_interruptible(code):
+    """A child that runs `code` and hears Ctrl-C, also where this process was started to ignore it."""
+    hears = "import signal; signal.signal(signal.SIGINT, signal.default_int_handler)\n"
+    return subprocess.Popen([sys.executable, "-c", hears + code], stdout=subprocess.PIPE, text=True,
+                            env={**os.environ, "PYTHONPATH": str(BUILD / "python")})
+
+
 @pytest.fixture
 def server(tmp_path):
     running = Server(tmp_path)

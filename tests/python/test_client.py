@@ -2,17 +2,15 @@
 import asyncio
 import json
 import math
-import os
 import signal
 import subprocess
-import sys
 
 import poolhall
 import pytest
 from poolhall import Client, Error, Move, Shot
 from poolhall.agent import Agent, Concede, Settings
 
-from conftest import BUILD, Server
+from conftest import Server, start_interruptible
 
 
 def choose(turn):
@@ -231,8 +229,7 @@ try:
 except KeyboardInterrupt:
     print("ended", flush=True)
 """
-    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True,
-                             env={**os.environ, "PYTHONPATH": str(BUILD / "python")})
+    child = start_interruptible(code)
     assert child.stdout.readline() == "thinking\n"
     child.send_signal(signal.SIGINT)
     out, _ = child.communicate(timeout=60)

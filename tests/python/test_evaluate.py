@@ -1,8 +1,5 @@
 """Shots under noise, by one thread and by many."""
-import os
 import signal
-import subprocess
-import sys
 import threading
 
 import numpy as np
@@ -10,7 +7,7 @@ import poolhall
 import pytest
 from poolhall import Error, Shot, evaluate, noisy_shots, simulate
 
-from conftest import BUILD
+from conftest import start_interruptible
 from scenes import SHOT, random_scenes, two_balls
 
 POT = Shot(0, 0, 5, 88.9, 2)
@@ -145,8 +142,7 @@ except KeyboardInterrupt:
     poolhall.evaluate(rack, poolhall.Shot(0, 3, 10, 87, 9), samples=10)
     print("ended", flush=True)
 """
-    child = subprocess.Popen([sys.executable, "-c", code], stdout=subprocess.PIPE, text=True,
-                             env={**os.environ, "PYTHONPATH": str(BUILD / "python")})
+    child = start_interruptible(code)
     assert child.stdout.readline() == "begun\n"
     child.send_signal(signal.SIGINT)
     out, _ = child.communicate(timeout=60)  # whole, it would take many minutes

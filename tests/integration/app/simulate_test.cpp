@@ -131,6 +131,7 @@ TEST_F(Simulate, WritesOneResultALine) {
   EXPECT_NE(third.find(R"("ending":"t_max")"), std::string::npos);
 }
 
+#ifndef POOLHALL_WITHOUT_BENCH
 TEST_F(Simulate, BenchTimesTheSameFileAndRefusesAsItDoes) {
   const Ran timed = bench_speed(file("good.jsonl", scene() + "\n" + scene() + "\n").string());
   EXPECT_EQ(timed.exit_code, 0) << timed.err;
@@ -141,6 +142,7 @@ TEST_F(Simulate, BenchTimesTheSameFileAndRefusesAsItDoes) {
   EXPECT_NE(wrong.err.find("bad.jsonl:2: /t_max: "), std::string::npos) << wrong.err;
   EXPECT_EQ(bench_speed("nowhere.jsonl").exit_code, 2);
 }
+#endif
 
 TEST_F(Simulate, DrawsAPicture) {
   input_ = scene();

@@ -206,6 +206,8 @@ TEST_F(LineLimits, OfRefusalsInATurnAreTheHosts) {
 
 TEST_F(LineLimits, OfTakeoversEndWithTheSecond) {
   limits().takeover_interval = milliseconds{200};
+  limits().messages_per_second = 1e6;
+  limits().message_burst = 1e6;
   WireClient first{port()};
   const std::string token = first.join("anna");
   WireClient second{port()};
