@@ -298,8 +298,9 @@ void Session::on_line_too_slow() {
 
 void Session::on_output_unread() {
   close({ErrorCode::unread_output, "",
-         fmt::format("more than {} bytes of output were left unread",
-                     lobby_.limits().output_queue_bytes)});
+         fmt::format("output was left unread: more than {} bytes by this connection, or the most "
+                     "where all together leave more than {}",
+                     lobby_.limits().output_queue_bytes, lobby_.limits().output_bytes_in_all)});
 }
 
 void Session::on_closed(std::string_view why) {
