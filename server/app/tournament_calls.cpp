@@ -15,7 +15,7 @@
 #include "server/ledger/status.hpp"
 #include "server/ledger/stored_tournament.hpp"
 #include "server/ledger/tables.hpp"
-#include "server/settings/document.hpp"
+#include "server/settings/files.hpp"
 #include "server/storage/sqlite_database.hpp"
 #include "server/web/http_call.hpp"
 

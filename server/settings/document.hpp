@@ -49,7 +49,4 @@ struct Member {
 
 [[nodiscard]] Expected<Node> parse_document(std::string_view text, const std::string& file);
 
-// The text of a file, at most 1 MiB.
-[[nodiscard]] Expected<std::string> read_file(const std::string& file);
-
 }  // namespace poolhall::settings

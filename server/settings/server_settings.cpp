@@ -1,5 +1,6 @@
 #include "server/settings/server_settings.hpp"
 
+#include "server/settings/files.hpp"
 #include "server/settings/keys.hpp"
 
 namespace poolhall::settings {

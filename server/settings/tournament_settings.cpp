@@ -8,6 +8,7 @@
 
 #include "physics/materials.hpp"
 #include "physics/table.hpp"
+#include "server/settings/files.hpp"
 #include "server/settings/keys.hpp"
 
 namespace poolhall::settings {

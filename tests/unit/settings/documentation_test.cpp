@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "server/settings/document.hpp"
+#include "server/settings/files.hpp"
 #include "server/settings/server_settings.hpp"
 #include "server/settings/tournament_settings.hpp"
 
