@@ -470,7 +470,7 @@ const std::vector<BadClient>& bad_clients() {
 
 protocol::Limits limits_for_bad_clients() {
   protocol::Limits limits;
-  limits.login_deadline = milliseconds{2'000};
+  limits.login_deadline = milliseconds{5'000};
   limits.line_deadline = milliseconds{500};
   limits.output_queue_bytes = 1024 * 1024;
   limits.input_bytes_per_second = 64 * 1024 * 1024;
