@@ -53,33 +53,6 @@ TEST(GreedyBot, PlacesTheCueBallForAPotWithTheBallInHand) {
   EXPECT_EQ(ruling.pocketed[0].ball, BallId{1});
 }
 
-TEST(GreedyBot, FromTheKitchenItStrikesABallOutsideFirst) {
-  const auto game = info("none");
-  const auto state = table_with(
-      {{0, {0.558, 0.3}}, {1, {0.3, 0.2}}, {2, {0.558, 1.6}}, {8, {0.9, 1.2}}, {9, {0.8, 0.9}}},
-      TurnKind::ball_in_hand_behind_head_string);
-  const auto shot = chosen(game, state);
-  ASSERT_TRUE(shot.cue_ball);
-  EXPECT_LT(shot.cue_ball->y, game.table.head_string);
-  EXPECT_TRUE(played_exactly(game, state, shot).legal);
-}
-
-TEST(GreedyBot, HiddenBehindAnotherBallItStillPlaysALegalShot) {
-  const auto game = info("none");
-  const auto state = table_with({{0, {0.558, 0.3}},
-                                 {1, {0.558, 1.9}},
-                                 {8, {0.5, 1.0}},
-                                 {9, {0.558, 1.0}},
-                                 {10, {0.616, 1.0}}});
-  EXPECT_TRUE(played_exactly(game, state, chosen(game, state)).legal);
-}
-
-TEST(GreedyBot, BreaksLegallyWithoutNoise) {
-  const auto game = info("none");
-  const rules::GameState state = rules::new_game({}, game.table, game.materials);
-  EXPECT_TRUE(played_exactly(game, state, chosen(game, state)).legal);
-}
-
 TEST(GreedyBot, KeepsTheTableWhenItMayChoose) {
   const auto game = info();
   auto state = table_with({{0, {0.558, 1.118}}, {1, {0.2, 1.9}}, {8, {0.9, 1.2}}, {9, {0.8, 0.4}}},

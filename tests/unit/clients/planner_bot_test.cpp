@@ -65,33 +65,6 @@ TEST(PlannerBot, WithTheBallInHandItPotsAndGoesOn) {
   EXPECT_EQ(ruling.next.to_move, rules::Seat::first);
 }
 
-TEST(PlannerBot, FromTheKitchenItStrikesABallOutsideFirst) {
-  const auto game = info("none");
-  const auto state = table_with(
-      {{0, {0.558, 0.3}}, {1, {0.3, 0.2}}, {2, {0.558, 1.6}}, {8, {0.9, 1.2}}, {9, {0.8, 0.9}}},
-      TurnKind::ball_in_hand_behind_head_string);
-  const auto shot = chosen(game, state);
-  ASSERT_TRUE(shot.cue_ball);
-  EXPECT_LT(shot.cue_ball->y, game.table.head_string);
-  EXPECT_TRUE(played_exactly(game, state, shot).legal);
-}
-
-TEST(PlannerBot, HiddenBehindOtherBallsItPlaysALegalShot) {
-  const auto game = info("none");
-  const auto state = table_with({{0, {0.558, 0.3}},
-                                 {1, {0.558, 1.9}},
-                                 {8, {0.5, 1.0}},
-                                 {9, {0.558, 1.0}},
-                                 {10, {0.616, 1.0}}});
-  EXPECT_TRUE(played_exactly(game, state, chosen(game, state)).legal);
-}
-
-TEST(PlannerBot, BreaksLegally) {
-  const auto game = info("none");
-  const rules::GameState state = rules::new_game({}, game.table, game.materials);
-  EXPECT_TRUE(played_exactly(game, state, chosen(game, state)).legal);
-}
-
 TEST(PlannerBot, SpotsTheEightOrBreaksAgainWhenItMayChoose) {
   const auto game = info();
   auto state = rules::new_game({}, game.table, game.materials);
