@@ -24,7 +24,7 @@ template <class Real>
 }
 
 #ifdef __SIZEOF_FLOAT128__
-__extension__ typedef __float128 Float128;
+__extension__ using Float128 = __float128;
 
 // The standard library has no square root of this type: one of 64 bits, and a Newton step.
 template <>

@@ -75,20 +75,6 @@ GameTerms<Received> read_terms(const JsonNode& node) {
   return terms;
 }
 
-std::optional<rules::Call::Kind> call_kind(std::string_view name) {
-  using Kind = rules::Call::Kind;
-  if (name == "none") {
-    return Kind::none;
-  }
-  if (name == "pocket") {
-    return Kind::pocket;
-  }
-  if (name == "safety") {
-    return Kind::safety;
-  }
-  return name == "push_out" ? std::optional(Kind::push_out) : std::nullopt;
-}
-
 Legal read_legal(const JsonNode& node) {
   if (const auto decisions = node.find("decisions")) {
     return LegalDecisions{read_decisions(*decisions)};
@@ -97,7 +83,7 @@ Legal read_legal(const JsonNode& node) {
   legal.balls = read_ball_ids(node.at("balls"));
   legal.first_balls = read_ball_ids(node.at("first_balls"));
   for (const JsonNode& call : node.at("calls").elements()) {
-    legal.calls.push_back(call.one_of(call_kind, "the name of a kind of call"));
+    legal.calls.push_back(call.one_of(rules::call_kind, "the name of a kind of call"));
   }
   return legal;
 }

@@ -78,20 +78,6 @@ void write_terms(JsonWriter& out, const GameTerms<Outgoing>& terms) {
   write_hex_pair(out, terms.agent_commitments);
 }
 
-std::string_view call_name(rules::Call::Kind kind) {
-  switch (kind) {
-    case rules::Call::Kind::none:
-      break;
-    case rules::Call::Kind::pocket:
-      return "pocket";
-    case rules::Call::Kind::safety:
-      return "safety";
-    case rules::Call::Kind::push_out:
-      return "push_out";
-  }
-  return "none";
-}
-
 void write_legal(JsonWriter& out, const LegalDecisions& legal) {
   out.begin_object().key("decisions");
   write_decisions(out, legal.decisions);
@@ -105,7 +91,7 @@ void write_legal(JsonWriter& out, const LegalBalls& legal) {
   write_ball_ids(out, legal.first_balls);
   out.key("calls").begin_array();
   for (const rules::Call::Kind kind : legal.calls) {
-    out.string(call_name(kind));
+    out.string(name(kind));
   }
   out.end_array().end_object();
 }

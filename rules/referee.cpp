@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "physics/simulator.hpp"
+#include "physics/words.hpp"
 #include "rules/common_clauses.hpp"
 #include "rules/game_rules.hpp"
 #include "rules/log_check.hpp"
@@ -14,6 +15,10 @@
 namespace poolhall::rules {
 namespace {
 
+constexpr physics::Words<Call::Kind, 4> call_kind_names{{{Call::Kind::none, "none"},
+                                                         {Call::Kind::pocket, "pocket"},
+                                                         {Call::Kind::safety, "safety"},
+                                                         {Call::Kind::push_out, "push_out"}}};
 constexpr std::array<std::string_view, 6> refusal_names{
     "bad_shot", "bad_call", "bad_cue_ball_position", "bad_decision", "bad_state", "bad_event_log"};
 constexpr std::array<std::string_view, 9> foul_names{
@@ -144,6 +149,14 @@ Ruling ruling_of(Verdict verdict) {
 }
 
 }  // namespace
+
+std::string_view name(Call::Kind kind) {
+  return physics::word_of(call_kind_names, kind);
+}
+
+std::optional<Call::Kind> call_kind(std::string_view name) {
+  return physics::value_of(call_kind_names, name);
+}
 
 std::string_view name(RefusalCode code) {
   const auto i = static_cast<std::size_t>(code);

@@ -28,6 +28,8 @@ struct Call {
 
   friend bool operator==(const Call&, const Call&) = default;
 };
+[[nodiscard]] std::string_view name(Call::Kind kind);
+[[nodiscard]] std::optional<Call::Kind> call_kind(std::string_view name);
 
 // Why something cannot be played, called, placed, decided or read. Stable names on the wire.
 enum class RefusalCode : std::uint8_t {

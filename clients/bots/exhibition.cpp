@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "clients/bots/dice.hpp"
-#include "physics/simulator.hpp"
+#include "protocol/shot_path.hpp"
 
 namespace poolhall::bots {
 namespace {
@@ -104,29 +104,22 @@ class Exhibition {
   }
 
   bool take(rules::Seat seat, const client::Shot& shot) {
-    const auto ready = rules::prepare_shot(state_, shot.call, shot.cue_ball, table_, materials_);
+    auto ready =
+        protocol::ready_shot(state_, shot.call, shot.cue_ball, shot.stroke, table_, materials_);
     if (!ready) {
       return false;
     }
-    const auto balls = rules::balls_on_table(*ready);
-    if (!physics::check_shot(protocol::to_physics(shot.stroke), balls, table_, materials_)) {
-      return false;
-    }
-    const auto executed =
-        protocol::executed_shot(shot.stroke, noise_, deviates(seat), balls, table_, materials_);
+    const auto executed = protocol::executed_shot(shot.stroke, noise_, deviates(seat),
+                                                  ready->scene.balls, table_, materials_);
     shots_.push_back({shot.stroke, executed.params, executed.moved});
-    const auto simulation = physics::simulate(
-        physics::Scene<double>{table_, materials_, balls, protocol::to_physics(executed.params)},
-        {});
-    if (!simulation) {
-      return give_up("simulate: " + simulation.error().field + " " + simulation.error().reason);
+    ready->scene.shot = protocol::to_physics(executed.params);
+    const auto played = protocol::play_shot(*ready);
+    if (!played) {
+      const protocol::Error error = protocol::request_error(played.error());
+      return give_up(error.field + " " + error.reason);
     }
-    const auto ruling = rules::judge(*ready, shot.call, simulation->events, table_, materials_);
-    if (!ruling) {
-      return give_up("judge: " + ruling.error().field + " " + ruling.error().reason);
-    }
-    record(game_.seats[rules::index(seat)], seat, *ruling);
-    state_ = ruling->next;
+    record(game_.seats[rules::index(seat)], seat, played->ruling);
+    state_ = played->ruling.next;
     return true;
   }
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "clients/bots/candidates.hpp"
-#include "clients/bots/random_bot.hpp"
+#include "clients/bots/choosing.hpp"
 
 namespace poolhall::bots {
 namespace {
@@ -37,21 +37,6 @@ std::uint64_t affordable_effort(std::uint64_t effort, std::chrono::microseconds 
 GreedyBot::GreedyBot(const client::GameInfo& info, const GreedySettings& settings)
     : settings_(settings), key_(Dice::key(settings.seed, info.game)) {}
 
-rules::Decision GreedyBot::best_decision(const client::TurnView& turn) const {
-  const PositionValue value(turn.info.table, turn.info.materials, aim_error(turn.info));
-  rules::Decision best = turn.state.options.front();
-  double best_value = -4;
-  for (const rules::Decision option : turn.state.options) {
-    const auto next = rules::decide(turn.state, option, turn.info.table, turn.info.materials);
-    const double worth = next ? value.of(*next, turn.info.seat) : -4;
-    if (worth > best_value) {
-      best = option;
-      best_value = worth;
-    }
-  }
-  return best;
-}
-
 std::optional<Candidate> GreedyBot::best_shot(const client::TurnView& turn) const {
   const std::uint64_t effort = affordable_effort(settings_.effort, turn.clock.own);
   Rehearsal rehearsal(turn, dice_for(key_, turn, Stream::noise));
@@ -73,22 +58,13 @@ std::optional<Candidate> GreedyBot::best_shot(const client::TurnView& turn) cons
 }
 
 client::Move GreedyBot::choose(const client::TurnView& turn) {
-  if (turn.state.kind == rules::TurnKind::decision) {
-    if (turn.state.options.empty()) {
-      return client::Concede{};
-    }
-    return best_decision(turn);
-  }
-  if (turn.refusals == 0) {
-    if (const auto best = best_shot(turn)) {
-      return best->shot;
-    }
-  }
-  Dice dice = dice_for(key_, turn, Stream::last_resort);
-  if (const auto shot = random_shot(turn, dice)) {
-    return *shot;
-  }
-  return client::Concede{};
+  const PositionValue value(turn.info.table, turn.info.materials, aim_error(turn.info));
+  const auto worth = [&](const rules::GameState& next) { return value.of(next, turn.info.seat); };
+  const auto shot = [&] {
+    const auto best = best_shot(turn);
+    return best ? std::optional(best->shot) : std::nullopt;
+  };
+  return chosen_move(turn, {worth, shot}, dice_for(key_, turn, Stream::last_resort));
 }
 
 }  // namespace poolhall::bots

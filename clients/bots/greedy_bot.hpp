@@ -37,7 +37,6 @@ class GreedyBot : public client::Player {
   [[nodiscard]] client::Move choose(const client::TurnView& turn) override;
 
  private:
-  [[nodiscard]] rules::Decision best_decision(const client::TurnView& turn) const;
   [[nodiscard]] std::optional<Candidate> best_shot(const client::TurnView& turn) const;
 
   GreedySettings settings_;

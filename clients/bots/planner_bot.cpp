@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
+#include "clients/bots/choosing.hpp"
 #include "clients/bots/noise_guess.hpp"
-#include "clients/bots/random_bot.hpp"
 #include "clients/bots/rehearsal.hpp"
 #include "clients/bots/thinking_time.hpp"
 
@@ -56,42 +56,14 @@ void PlannerBot::reckon_noise(const client::TurnView& turn) {
   }
 }
 
-rules::Decision PlannerBot::best_decision(const client::TurnView& turn) {
-  rules::Decision best = turn.state.options.front();
-  double best_value = -1;
-  for (const rules::Decision option : turn.state.options) {
-    const auto next = rules::decide(turn.state, option, turn.info.table, turn.info.materials);
-    if (!next) {
-      continue;
-    }
-    const double mover = planner_->mover_wins(*next);
-    const double value = next->to_move == turn.info.seat ? mover : 1 - mover;
-    if (value > best_value) {
-      best = option;
-      best_value = value;
-    }
-  }
-  return best;
-}
-
 client::Move PlannerBot::choose(const client::TurnView& turn) {
   reckon_noise(turn);
-  if (turn.state.kind == rules::TurnKind::decision) {
-    if (turn.state.options.empty()) {
-      return client::Concede{};
-    }
-    return best_decision(turn);
-  }
-  if (turn.refusals == 0) {
-    if (const auto shot = best_shot(turn)) {
-      return *shot;
-    }
-  }
-  Dice dice(key_, turn.state.turn * 8 + turn.refusals);
-  if (const auto shot = random_shot(turn, dice)) {
-    return *shot;
-  }
-  return client::Concede{};
+  const auto worth = [&](const rules::GameState& next) {
+    const double mover = planner_->mover_wins(next);
+    return next.to_move == turn.info.seat ? mover : 1 - mover;
+  };
+  const auto shot = [&] { return best_shot(turn); };
+  return chosen_move(turn, {worth, shot}, Dice(key_, turn.state.turn * 8 + turn.refusals));
 }
 
 }  // namespace poolhall::bots

@@ -29,7 +29,6 @@ class PlannerBot : public client::Player {
   [[nodiscard]] client::Move choose(const client::TurnView& turn) override;
 
  private:
-  [[nodiscard]] rules::Decision best_decision(const client::TurnView& turn);
   [[nodiscard]] std::optional<client::Shot> best_shot(const client::TurnView& turn);
 
   // A new planner where the noise is hidden and turns out to be another one than reckoned with.

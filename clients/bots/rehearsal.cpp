@@ -88,44 +88,31 @@ double aim_error(const client::GameInfo& info) {
 Rehearsal::Rehearsal(const client::TurnView& turn, Dice dice)
     : turn_(turn),
       noise_(reckoned_noise(turn.info)),
-      position_value_(turn.info.table, turn.info.materials, aim_error(turn.info)),
-      scene_{turn.info.table, turn.info.materials, {}, {}} {
+      position_value_(turn.info.table, turn.info.materials, aim_error(turn.info)) {
   deviates_.reserve(max_samples);
   for (std::size_t i = 0; i < max_samples; ++i) {
     deviates_.push_back(dice.deviates());
   }
 }
 
-std::optional<rules::GameState> Rehearsal::ready(const client::Shot& shot) const {
-  auto state = rules::prepare_shot(turn_.state, shot.call, shot.cue_ball, turn_.info.table,
-                                   turn_.info.materials);
-  if (!state ||
-      !physics::check_shot(protocol::to_physics(shot.stroke), rules::balls_on_table(*state),
-                           turn_.info.table, turn_.info.materials)) {
-    return std::nullopt;
-  }
-  return *std::move(state);
+std::optional<protocol::ReadyShot> Rehearsal::ready(const client::Shot& shot) const {
+  auto ready = protocol::ready_shot(turn_.state, shot.call, shot.cue_ball, shot.stroke,
+                                    turn_.info.table, turn_.info.materials);
+  return ready ? std::optional(*std::move(ready)) : std::nullopt;
 }
 
-std::optional<rules::Ruling> Rehearsal::run(const rules::GameState& ready, const client::Shot& shot,
-                                            const protocol::ShotParams& executed) {
-  scene_.balls = rules::balls_on_table(ready);
-  scene_.shot = protocol::to_physics(executed);
-  const auto simulation = physics::simulate(scene_, {});
-  if (!simulation) {
+std::optional<rules::Ruling> Rehearsal::run(const protocol::ReadyShot& ready) {
+  auto played = protocol::play_shot(ready);
+  if (!played) {
     return std::nullopt;
   }
-  events_ += simulation->events.size();
-  auto ruling = rules::judge(ready, shot.call, simulation->events, scene_.table, scene_.materials);
-  if (!ruling) {
-    return std::nullopt;
-  }
-  return *std::move(ruling);
+  events_ += played->simulation.events.size();
+  return std::move(played->ruling);
 }
 
 std::optional<rules::Ruling> Rehearsal::exact(const client::Shot& shot) {
-  const auto state = ready(shot);
-  return state ? run(*state, shot, shot.stroke) : std::nullopt;
+  const auto asked = ready(shot);
+  return asked ? run(*asked) : std::nullopt;
 }
 
 std::optional<double> Rehearsal::exact_value(const client::Shot& shot) {
@@ -137,17 +124,17 @@ std::optional<double> Rehearsal::exact_value(const client::Shot& shot) {
 }
 
 std::optional<double> Rehearsal::value(const client::Shot& shot, SampleRange samples) {
-  const auto state = ready(shot);
-  if (!state || samples.count == 0) {
+  auto asked = ready(shot);
+  if (!asked || samples.count == 0) {
     return std::nullopt;
   }
-  const auto balls = rules::balls_on_table(*state);
   double sum = 0;
   for (std::size_t i = 0; i < samples.count; ++i) {
     const auto& deviates = deviates_[(samples.first + i) % max_samples];
-    const auto executed = protocol::executed_shot(shot.stroke, noise_, deviates, balls,
+    const auto executed = protocol::executed_shot(shot.stroke, noise_, deviates, asked->scene.balls,
                                                   turn_.info.table, turn_.info.materials);
-    const auto ruling = run(*state, shot, executed.params);
+    asked->scene.shot = protocol::to_physics(executed.params);
+    const auto ruling = run(*asked);
     if (!ruling) {
       return std::nullopt;
     }

@@ -13,7 +13,7 @@
 #include "clients/bots/dice.hpp"
 #include "clients/bots/pot_lines.hpp"
 #include "clients/cpp/player.hpp"
-#include "physics/simulator.hpp"
+#include "protocol/shot_path.hpp"
 
 namespace poolhall::bots {
 
@@ -59,16 +59,13 @@ class Rehearsal {
   void add_events(std::uint64_t events) { events_ += events; }
 
  private:
-  [[nodiscard]] std::optional<rules::GameState> ready(const client::Shot& shot) const;
-  [[nodiscard]] std::optional<rules::Ruling> run(const rules::GameState& ready,
-                                                 const client::Shot& shot,
-                                                 const protocol::ShotParams& executed);
+  [[nodiscard]] std::optional<protocol::ReadyShot> ready(const client::Shot& shot) const;
+  [[nodiscard]] std::optional<rules::Ruling> run(const protocol::ReadyShot& ready);
 
   const client::TurnView& turn_;
   protocol::NoiseParams noise_;
   PositionValue position_value_;
   std::vector<physics::ShotDeviates> deviates_;
-  physics::Scene<double> scene_;
   std::uint64_t events_ = 0;
 };
 

@@ -37,10 +37,7 @@ void ignores_notifications(Host& host) {
   push_unknown(host);
   const auto accepted = host.acceptable(game);
   push_unknown(host);
-  if (accepted) {
-    host.store(*accepted);
-    host.reply_to(*accepted);
-  }
+  host.finish(accepted);
   host.play_opponent(game);
   host.play_turn(game);
 }
@@ -63,10 +60,7 @@ void reads_many_lines_at_once(Host& host) {
   host.push(game.snapshot());
   host.hand_turn(game);
   host.flush();
-  if (const auto accepted = host.acceptable(game)) {
-    host.store(*accepted);
-    host.reply_to(*accepted);
-  }
+  host.finish(host.acceptable(game));
   host.play_opponent(game);
   host.play_turn(game);
 }
@@ -83,10 +77,7 @@ void reads_the_longest_line(Host& host) {
   const std::string padding(protocol::Limits{}.server_line_bytes - length, 'x');
   line.insert(line.find(params) + params.size(), R"("x_padding":")" + padding + R"(",)");
   host.send_raw(line);
-  if (const auto accepted = host.acceptable(game)) {
-    host.store(*accepted);
-    host.reply_to(*accepted);
-  }
+  host.finish(host.acceptable(game));
 }
 
 // A log that does not fit into a line comes empty.

@@ -20,10 +20,7 @@ void comes_back_and_goes_on(Host& host, HostedGame& game) {
   host.expect_return();
   host.tell_again(game);
   if (game.is_bots_turn()) {
-    if (const auto accepted = host.acceptable(game)) {
-      host.store(*accepted);
-      host.reply_to(*accepted);
-    }
+    host.finish(host.acceptable(game));
   }
   host.play_opponent(game);
   host.play_turn(game);

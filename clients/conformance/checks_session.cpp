@@ -97,10 +97,7 @@ void plays_two_games(Host& host) {
   host.flush();
   const auto is_due = [](const HostedGame& game) { return game.state().turn == 1; };
   while (is_due(first) || is_due(second)) {
-    if (const auto accepted = host.acceptable(host.any_answer())) {
-      host.store(*accepted);
-      host.reply_to(*accepted);
-    }
+    host.finish(host.acceptable(host.any_answer()));
   }
 }
 

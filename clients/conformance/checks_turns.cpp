@@ -31,10 +31,7 @@ void answers_again(Host& host) {
   HostedGame& game = host.begin({});
   host.hand_turn(game);
   host.refuse_answer(host.answer_of(game), refusal_of(game));
-  if (const auto accepted = host.acceptable(game)) {
-    host.store(*accepted);
-    host.reply_to(*accepted);
-  }
+  host.finish(host.acceptable(game));
   goes_on(host, game);
 }
 
@@ -87,10 +84,7 @@ void tries_again(Host& host, ErrorCode code) {
     host.put_off(answer, {code, "", "the turn could not be stored", game.id()});
     ++refused;
   }
-  if (const auto accepted = host.acceptable(game)) {
-    host.store(*accepted);
-    host.reply_to(*accepted);
-  }
+  host.finish(host.acceptable(game));
   goes_on(host, game);
   if (refused > too_often) {
     throw Stop{Verdict::warning, "it asked " + std::to_string(refused) + " times in " +
@@ -122,10 +116,7 @@ void bears_repeated_turns(Host& host) {
   host.hand_turn(game);
   host.push(game.snapshot());
   host.serve_for(milliseconds{100});
-  if (accepted) {
-    host.store(*accepted);
-    host.reply_to(*accepted);
-  }
+  host.finish(accepted);
   host.serve_for(milliseconds{100});
   goes_on(host, game);
   host.demand(duties::one_content_per_key);
@@ -200,10 +191,7 @@ void bears_probes(Host& host) {
   for (int probe = 0; probe < probes; ++probe) {
     host.probe(4'000'000'000'000 + probe);
   }
-  if (const auto accepted = host.acceptable(game)) {
-    host.store(*accepted);
-    host.reply_to(*accepted);
-  }
+  host.finish(host.acceptable(game));
   goes_on(host, game);
 }
 

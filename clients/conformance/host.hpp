@@ -110,6 +110,8 @@ class Host {
   void put_off(const Answer& answer, const protocol::Error& error);
   void store(const Accepted& accepted);
   void reply_to(const Accepted& accepted);
+  // Both, unless the turn was lost.
+  void finish(const std::optional<Accepted>& accepted);
   // All of that.
   void play_turn(HostedGame& game);
   // The opponent plays, if it is its turn, until it is the bot's.

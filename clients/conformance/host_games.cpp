@@ -315,12 +315,16 @@ void Host::reply_to(const Accepted& accepted) {
   }
 }
 
-void Host::play_turn(HostedGame& game) {
-  hand_turn(game);
-  if (const auto accepted = acceptable(game)) {
+void Host::finish(const std::optional<Accepted>& accepted) {
+  if (accepted) {
     store(*accepted);
     reply_to(*accepted);
   }
+}
+
+void Host::play_turn(HostedGame& game) {
+  hand_turn(game);
+  finish(acceptable(game));
 }
 
 void Host::play_opponent(HostedGame& game) {

@@ -3,8 +3,8 @@
 #include <utility>
 
 #include "clients/bots/house_bots.hpp"
-#include "physics/simulator.hpp"
 #include "protocol/events_json.hpp"
+#include "protocol/shot_path.hpp"
 #include "protocol/state_json.hpp"
 #include "protocol/table_json.hpp"
 
@@ -111,27 +111,17 @@ protocol::Expected<Played> HostedGame::judge(const protocol::Shot& shot) const {
 }
 
 protocol::Expected<Played> HostedGame::play(const protocol::Shot& shot, Seat by) const {
-  const auto refusal = [this](protocol::Error refused) {
+  const auto ready =
+      protocol::ready_shot(state_, shot.call, shot.cue_ball, shot.params, table_, materials_);
+  if (!ready) {
+    auto refused = protocol::request_error(ready.error());
     refused.game = plan_.id;
     return tl::unexpected(std::move(refused));
-  };
-  const auto ready = rules::prepare_shot(state_, shot.call, shot.cue_ball, table_, materials_);
-  if (!ready) {
-    return refusal(protocol::error_from(ready.error(), "/params"));
   }
-  const auto balls = rules::balls_on_table(*ready);
-  const auto strike = protocol::to_physics(shot.params);
-  if (const auto possible = physics::check_shot(strike, balls, table_, materials_); !possible) {
-    return refusal(protocol::error_from(possible.error(), "/params/params"));
-  }
-  const auto simulation =
-      physics::simulate(physics::Scene<double>{table_, materials_, balls, strike}, {});
-  if (!simulation) {
-    return tl::unexpected(error(ErrorCode::internal, "", simulation.error().reason));
-  }
-  auto ruling = rules::judge(*ready, shot.call, simulation->events, table_, materials_);
-  if (!ruling) {
-    return tl::unexpected(error(ErrorCode::internal, "", ruling.error().reason));
+  auto played = protocol::play_shot(*ready);
+  if (!played) {
+    return tl::unexpected(
+        error(ErrorCode::internal, "", protocol::request_error(played.error()).reason));
   }
   protocol::GameShot<Outgoing> told;
   told.game = plan_.id;
@@ -141,11 +131,11 @@ protocol::Expected<Played> HostedGame::play(const protocol::Shot& shot, Seat by)
   told.call = shot.call;
   told.cue_ball = shot.cue_ball;
   told.intended = told.executed = shot.params;
-  told.ruling.text = protocol::encode_ruling(*ruling);
-  told.events.text = protocol::encode_events(simulation->events, detail_);
-  told.state.text = protocol::encode_state(ruling->next);
+  told.ruling.text = protocol::encode_ruling(played->ruling);
+  told.events.text = protocol::encode_events(played->simulation.events, detail_);
+  told.state.text = protocol::encode_state(played->ruling.next);
   told.clock = {plan_.left.count(), plan_.left.count(), {}};
-  return Played{std::move(told), std::move(ruling->next)};
+  return Played{std::move(told), std::move(played->ruling.next)};
 }
 
 protocol::Expected<Played> HostedGame::judge(const protocol::Decide& decide) const {

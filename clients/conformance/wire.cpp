@@ -99,8 +99,8 @@ void Link::finish() {
   ::shutdown(descriptor_, SHUT_WR);
   const auto deadline = std::chrono::steady_clock::now() + farewell;
   while (true) {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(
-        deadline - std::chrono::steady_clock::now());
+    const auto left =
+        std::chrono::ceil<std::chrono::milliseconds>(deadline - std::chrono::steady_clock::now());
     pollfd readable{descriptor_, POLLIN, 0};
     if (left.count() <= 0 || ::poll(&readable, 1, static_cast<int>(left.count())) <= 0 ||
         ::recv(descriptor_, chunk_.data(), chunk_.size(), MSG_DONTWAIT) <= 0) {

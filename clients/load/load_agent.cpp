@@ -103,9 +103,7 @@ void LoadAgent::reply_came(std::int64_t id, std::string_view line) {
 
 // A refused answer is given again, differently, unless the turn is lost.
 void LoadAgent::error_came(std::int64_t id, std::string_view line) {
-  const std::size_t data = line.find(R"("data":)");
-  const std::string_view code =
-      data == std::string_view::npos ? "unknown" : word_in(line.substr(data), "code");
+  const std::string_view code = error_code_in(line);
   if (id == 0 || id != answer_id_) {
     overseer_.trouble(*this, std::string(code));
     return;

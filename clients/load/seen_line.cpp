@@ -111,6 +111,11 @@ std::string_view word_in(std::string_view line, std::string_view key) {
   return rest.substr(1, rest.find('"', 1) - 1);
 }
 
+std::string_view error_code_in(std::string_view line) {
+  const std::size_t data = line.find(R"("data":)");
+  return data == std::string_view::npos ? "unknown" : word_in(line.substr(data), "code");
+}
+
 SeenLine look_at(std::string_view line) {
   if (line.starts_with(reply_opening)) {
     line.remove_prefix(reply_opening.size());

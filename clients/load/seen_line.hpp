@@ -41,6 +41,8 @@ struct SeenLine {
 [[nodiscard]] std::optional<std::int64_t> integer_in(std::string_view line, std::string_view key);
 // The string after the first `"key":"`, as it stands; empty if there is none.
 [[nodiscard]] std::string_view word_in(std::string_view line, std::string_view key);
+// The name of an error's code; "unknown" where the line has no data.
+[[nodiscard]] std::string_view error_code_in(std::string_view line);
 
 struct SeenTurn {
   std::int64_t game = 0;

@@ -90,13 +90,13 @@ int report_on(const FairnessArguments& arguments) {
     auto found = (*reader)->matches_of(*arguments.tournament);
     if (!found || found->empty())
       return fail_report(found ? "no matches of a tournament " + *arguments.tournament
-                        : found.error().reason);
+                               : found.error().reason);
     matches = std::move(*found);
   } else {
     auto found = (*reader)->match(protocol::MatchId{*arguments.match});
     if (!found || !*found)
       return fail_report(found ? fmt::format("there is no match {}", *arguments.match)
-                        : found.error().reason);
+                               : found.error().reason);
     matches.push_back(std::move(**found));
   }
   const auto agents = (*reader)->agents();

@@ -164,8 +164,8 @@ Outcome<void> replay(const ReplayArguments& arguments) {
     return tl::unexpected(game.error());
   const std::string title =
       fmt::format("game {}: {} against {}, {} on {}, noise {}", arguments.game, game->players[0],
-                  game->players[1], rules::name(game->record.terms.rules),
-                  game->record.terms.table, game->record.terms.noise);
+                  game->players[1], rules::name(game->record.terms.rules), game->record.terms.table,
+                  game->record.terms.noise);
   fmt::print("{}\n", title);
   if (arguments.svg && !arguments.turn) {
     if (auto sheet = draw_sheet(*game, title, *arguments.svg); !sheet)
@@ -193,7 +193,8 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   command->add_option("game", arguments->game, "number of the game")->required();
   command->add_option("--shot", arguments->turn, "only the turn with this number");
   command->add_option("--db", arguments->database, "database file")->capture_default_str();
-  command->add_option("--svg", arguments->svg, "write a picture of the shot, or of all shots, to this file");
+  command->add_option("--svg", arguments->svg,
+                      "write a picture of the shot, or of all shots, to this file");
   command->add_flag("--ascii", arguments->ascii, "show the table after each turn");
   command->callback([arguments, &exit_code] {
     const auto done = replay(*arguments);

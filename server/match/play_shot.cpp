@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "protocol/events_json.hpp"
+#include "protocol/shot_path.hpp"
 #include "protocol/state_json.hpp"
 #include "server/match/chain.hpp"
 #include "server/meter/work_meter.hpp"
@@ -15,20 +16,16 @@ using meter::metered;
 
 namespace {
 
-// Where the request has what the referee and the simulator were given.
-constexpr std::string_view request_prefix = "/params";
-constexpr std::string_view stroke_prefix = "/params/params";
-
 PlayOutcome fault(const std::string& what, const std::string& why) {
   return ServerFault{what + ": " + why};
 }
 
-PlayOutcome judged(const ShotJob& job, const rules::GameState& ready,
+PlayOutcome judged(const ShotJob& job, const protocol::ReadyShot& ready,
                    const protocol::ExecutedShot& executed,
                    const physics::EventLog<double>& events) {
   const Board& board = *job.board;
   auto ruling = metered(Area::rules, [&] {
-    return rules::judge(ready, job.row.shot->call, events, board.table, board.materials);
+    return rules::judge(ready.state, ready.call, events, board.table, board.materials);
   });
   if (!ruling)
     return fault("the referee refused a simulated shot", ruling.error().reason);
@@ -74,26 +71,20 @@ void share_deviates(ShotJob& job, const GameKey& key, protocol::GameId first) {
 PlayOutcome play(const ShotJob& job) {
   const Board& board = *job.board;
   const storage::ShotPart& shot = *job.row.shot;
-  const auto ready = metered(Area::rules, [&] {
-    return rules::prepare_shot(job.state, shot.call, shot.cue_ball, board.table, board.materials);
+  auto ready = metered(Area::rules, [&] {
+    return protocol::ready_shot(job.state, shot.call, shot.cue_ball, shot.intended, board.table,
+                                board.materials);
   });
   if (!ready)
-    return protocol::error_from(ready.error(), request_prefix);
-  const physics::BallSet<double> balls = rules::balls_on_table(*ready);
-  const auto possible = metered(Area::physics, [&] {
-    return physics::check_shot(protocol::to_physics(shot.intended), balls, board.table,
-                               board.materials);
-  });
-  if (!possible)
-    return protocol::error_from(possible.error(), stroke_prefix);
+    return protocol::request_error(ready.error());
 
   const protocol::ExecutedShot executed = metered(Area::physics, [&] {
-    return protocol::executed_shot(shot.intended, job.noise, job.deviates, balls, board.table,
-                                   board.materials);
+    return protocol::executed_shot(shot.intended, job.noise, job.deviates, ready->scene.balls,
+                                   board.table, board.materials);
   });
-  const auto simulation = metered(Area::physics, [&] {
-    return physics::simulate(scene_of(*ready, board, executed.params), {});
-  });
+  ready->scene.shot = protocol::to_physics(executed.params);
+  const auto simulation =
+      metered(Area::physics, [&] { return physics::simulate(ready->scene, {}); });
   if (!simulation)
     return fault("the simulator refused a shot", simulation.error().reason);
   if (simulation->ending != physics::Ending::at_rest)

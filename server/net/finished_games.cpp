@@ -144,7 +144,7 @@ void FinishedGames::acknowledge(const Asker& asker, storage::AgentId agent, prot
       row.seal = match::seal(row);
       return database.update_game(row);
     };
-    store_acknowledgement(asker, id, work);
+    store_acknowledgement(services_.writer, asker, id, work);
   });
 }
 
@@ -165,17 +165,18 @@ void FinishedGames::acknowledge(const Asker& asker, storage::AgentId agent, prot
           asker.refuse({ErrorCode::invalid_params, "/params/match",
                         fmt::format("got {}, a match that goes on", number(id))});
         } else {
-          store_acknowledgement(asker, id, [id, agent](storage::Database& database) {
-            return database.acknowledge_match(id, agent);
-          });
+          store_acknowledgement(services_.writer, asker, id,
+                                [id, agent](storage::Database& database) {
+                                  return database.acknowledge_match(id, agent);
+                                });
         }
       });
 }
 
-void FinishedGames::store_acknowledgement(const Asker& asker, const protocol::Ended& what,
-                                          storage::Writer::Work work) {
+void store_acknowledgement(storage::Writer& writer, const Asker& asker, const protocol::Ended& what,
+                           storage::Writer::Work work) {
   const auto posted =
-      services_.writer.post(std::move(work), [asker, what](const storage::Expected<void>& stored) {
+      writer.post(std::move(work), [asker, what](const storage::Expected<void>& stored) {
         if (stored) {
           asker.reply(protocol::AckReply{what});
         } else {

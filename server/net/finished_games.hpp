@@ -44,13 +44,14 @@ class FinishedGames {
             std::function<void(const Found&, rules::Seat seat)> then);
   void reply_sync(const Asker& asker, const Found& found, rules::Seat seat) const;
 
-  void store_acknowledgement(const Asker& asker, const protocol::Ended& what,
-                             storage::Writer::Work work);
-
   GameServices& services_;
   TournamentOf tournament_of_;
 };
 
 [[nodiscard]] protocol::Error unknown_game(protocol::GameId game);
+
+// The reply comes once the acknowledgement of `what` is stored.
+void store_acknowledgement(storage::Writer& writer, const Asker& asker, const protocol::Ended& what,
+                           storage::Writer::Work work);
 
 }  // namespace poolhall::net

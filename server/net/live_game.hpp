@@ -111,8 +111,9 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   void written(const storage::Expected<void>& stored);
   void not_written(const storage::StorageError& error);
   void tell(const match::Store& what);
-  void tell_shot(const storage::TurnRecord& row);
-  void tell_decision(const storage::TurnRecord& row);
+  // Of a shot or a decision, `message_of(row, side)`.
+  template <class TurnReply, class MessageOf>
+  void tell_played(const storage::TurnRecord& row, MessageOf message_of);
   void tell_lost_turn(const storage::TurnRecord& row);
   void tell_over();
   void answer_from(const storage::TurnRecord& row, const GameRequest& request) const;

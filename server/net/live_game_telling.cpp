@@ -20,10 +20,10 @@ void LiveGame::tell(const match::Store& what) {
   }
   switch (what.turn.action) {
     case storage::TurnAction::shot:
-      tell_shot(what.turn);
+      tell_played<protocol::ShotReply<Outgoing>>(what.turn, shot_of);
       break;
     case storage::TurnAction::decision:
-      tell_decision(what.turn);
+      tell_played<protocol::DecideReply<Outgoing>>(what.turn, decision_of);
       break;
     case storage::TurnAction::lost_turn:
       tell_lost_turn(what.turn);
@@ -42,38 +42,21 @@ void LiveGame::tell(const match::Store& what) {
   }
 }
 
-void LiveGame::tell_shot(const storage::TurnRecord& row) {
+template <class TurnReply, class MessageOf>
+void LiveGame::tell_played(const storage::TurnRecord& row, MessageOf message_of) {
   const Seat by = row.seat;
   const auto asked = asker_.session.lock();
-  asker_.reply(protocol::ShotReply<Outgoing>{shot_of(row, side_of(by, asker_.session.lock())),
-                                             Repetition::first_time});
+  asker_.reply(TurnReply{message_of(row, side_of(by, asked)), Repetition::first_time});
   for (const Asker& asker : std::exchange(joined_, {})) {
-    asker.reply(protocol::ShotReply<Outgoing>{shot_of(row, side_of(by, asker.session.lock())),
-                                              Repetition::duplicate});
+    asker.reply(
+        TurnReply{message_of(row, side_of(by, asker.session.lock())), Repetition::duplicate});
   }
   for (const Seat seat : both_seats) {
     const auto session = session_of(seat);
-    // The shooter has it in its reply; if that went to a connection that was taken over since,
-    // the new one learns of it in this way.
+    // Who asked has it in its reply; if that went to a connection that was taken over since, the
+    // new one learns of it in this way.
     if (session && (seat != by || session != asked)) {
-      session->push(shot_of(row, side_of(seat, session)));
-    }
-  }
-}
-
-void LiveGame::tell_decision(const storage::TurnRecord& row) {
-  const Seat by = row.seat;
-  const auto asked = asker_.session.lock();
-  asker_.reply(protocol::DecideReply<Outgoing>{decision_of(row, side_of(by, asker_.session.lock())),
-                                               Repetition::first_time});
-  for (const Asker& asker : std::exchange(joined_, {})) {
-    asker.reply(protocol::DecideReply<Outgoing>{decision_of(row, side_of(by, asker.session.lock())),
-                                                Repetition::duplicate});
-  }
-  for (const Seat seat : both_seats) {
-    const auto session = session_of(seat);
-    if (session && (seat != by || session != asked)) {
-      session->push(decision_of(row, side_of(seat, session)));
+      session->push(message_of(row, side_of(seat, session)));
     }
   }
 }

@@ -44,6 +44,18 @@ protocol::Legal legal_in(const rules::GameState& state) {
                               rules::legal_calls(state)};
 }
 
+// What every message about a turn that is over has.
+template <class Message>
+Message turn_over(const storage::TurnRecord& row, const Side& reader) {
+  Message message;
+  message.game = row.game;
+  message.turn = row.number;
+  message.by = row.seat;
+  message.state = RawJson{row.state_after};
+  message.clock = clocks_after(row, reader.seat);
+  return message;
+}
+
 }  // namespace
 
 GameCard card_of(const match::Board& board, std::array<std::string, 2> names,
@@ -140,10 +152,7 @@ protocol::GameTurn<Outgoing> turn_of(const match::Game& game,
 
 protocol::GameShot<Outgoing> shot_of(const storage::TurnRecord& row, const Side& reader) {
   const storage::ShotPart& played = row.shot.value();
-  protocol::GameShot<Outgoing> shot;
-  shot.game = row.game;
-  shot.turn = row.number;
-  shot.by = row.seat;
+  auto shot = turn_over<protocol::GameShot<Outgoing>>(row, reader);
   shot.shot_id = row.request.value_or(protocol::ShotId{"null"});
   shot.call = played.call;
   shot.cue_ball = played.cue_ball;
@@ -152,30 +161,18 @@ protocol::GameShot<Outgoing> shot_of(const storage::TurnRecord& row, const Side&
   shot.moved = played.moved;
   shot.ruling = RawJson{row.ruling.value_or("null")};
   shot.events = events_for(played, reader);
-  shot.state = RawJson{row.state_after};
-  shot.clock = clocks_after(row, reader.seat);
   return shot;
 }
 
 protocol::GameDecision<Outgoing> decision_of(const storage::TurnRecord& row, const Side& reader) {
-  protocol::GameDecision<Outgoing> decision;
-  decision.game = row.game;
-  decision.turn = row.number;
-  decision.by = row.seat;
+  auto decision = turn_over<protocol::GameDecision<Outgoing>>(row, reader);
   decision.choice = row.decision.value();
-  decision.state = RawJson{row.state_after};
-  decision.clock = clocks_after(row, reader.seat);
   return decision;
 }
 
 protocol::GameTurnLost<Outgoing> lost_turn_of(const storage::TurnRecord& row, const Side& reader) {
-  protocol::GameTurnLost<Outgoing> lost;
-  lost.game = row.game;
-  lost.turn = row.number;
-  lost.by = row.seat;
+  auto lost = turn_over<protocol::GameTurnLost<Outgoing>>(row, reader);
   lost.ruling = RawJson{row.ruling.value_or("null")};
-  lost.state = RawJson{row.state_after};
-  lost.clock = clocks_after(row, reader.seat);
   return lost;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "server/net/finished_games.hpp"
 #include "server/net/tournaments.hpp"
 
 namespace poolhall::net {
@@ -128,20 +129,10 @@ void Tournaments::acknowledge(const Asker& asker, storage::AgentId agent,
                   fmt::format("got {}, a tournament that is not over", number(id))});
     return;
   }
-  const auto posted = services_.writer.post(
-      [name = tournament->record.id, agent](storage::Database& database) {
-        return database.acknowledge_tournament(name, agent);
-      },
-      [asker, id](const storage::Expected<void>& stored) {
-        if (stored) {
-          asker.reply(protocol::AckReply{id});
-        } else {
-          asker.refuse({ErrorCode::internal, "", stored.error().reason});
-        }
-      });
-  if (posted != storage::Posted::accepted) {
-    asker.refuse({ErrorCode::paused, "", "the database takes nothing at the moment"});
-  }
+  store_acknowledgement(services_.writer, asker, id,
+                        [name = tournament->record.id, agent](storage::Database& database) {
+                          return database.acknowledge_tournament(name, agent);
+                        });
 }
 
 }  // namespace poolhall::net

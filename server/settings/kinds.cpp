@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include "server/settings/units.hpp"
+#include "protocol/messages.hpp"
 
 namespace poolhall::settings {
 namespace {
@@ -38,14 +38,6 @@ std::string quoted(std::string_view value) {
     escaped += c;
   }
   return fmt::format("\"{}\"", escaped);
-}
-
-bool is_name(std::string_view value) {
-  const auto allowed = [](char c) {
-    return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '.' ||
-           c == '_' || c == '-';
-  };
-  return !value.empty() && value.size() <= 32 && std::all_of(value.begin(), value.end(), allowed);
 }
 
 bool is_port(std::string_view value) {
@@ -108,41 +100,26 @@ std::string WholeNumber::write(Value value) {
   return fmt::format("{}", value);
 }
 
-std::string Number::expected() const {
-  return fmt::format("a number from {} to {}", lowest, highest);
+template <class Unit>
+std::string Quantity<Unit>::expected() const {
+  return fmt::format("{} from {} to {}", Unit::words, lowest, highest);
 }
-std::optional<double> Number::read(const Node& node) const {
-  return number(node, lowest, highest);
+template <class Unit>
+std::optional<typename Unit::Value> Quantity<Unit>::read(const Node& node) const {
+  const auto value = number(node, lowest, highest);
+  return value ? std::optional(Unit::from_file(*value)) : std::nullopt;
 }
-std::string Number::write(Value value) {
-  return fmt::format("{}", value);
+template <class Unit>
+std::string Quantity<Unit>::write(Value value) {
+  return fmt::format("{}", Unit::to_file(value));
 }
+template struct Quantity<PlainUnit>;
+template struct Quantity<SecondsUnit>;
+template struct Quantity<MillimetresUnit>;
 
 std::optional<bool> Flag::read(const Node& node) {
   const auto* value = std::get_if<bool>(&node.value);
   return value == nullptr ? std::nullopt : std::optional(*value);
-}
-
-std::string Seconds::expected() const {
-  return fmt::format("seconds, a number from {} to {}", lowest, highest);
-}
-std::optional<std::chrono::microseconds> Seconds::read(const Node& node) const {
-  const auto value = number(node, lowest, highest);
-  return value ? std::optional(microseconds_of_seconds(*value)) : std::nullopt;
-}
-std::string Seconds::write(Value value) {
-  return fmt::format("{}", seconds_of(value));
-}
-
-std::string Millimetres::expected() const {
-  return fmt::format("millimetres, a number from {} to {}", lowest, highest);
-}
-std::optional<double> Millimetres::read(const Node& node) const {
-  const auto value = number(node, lowest, highest);
-  return value ? std::optional(metres_of_millimetres(*value)) : std::nullopt;
-}
-std::string Millimetres::write(Value value) {
-  return fmt::format("{}", millimetres_of_metres(value));
 }
 
 std::string Line::expected() const {
@@ -166,7 +143,8 @@ std::string Name::expected() {
 }
 std::optional<std::string> Name::read(const Node& node) {
   const auto* value = std::get_if<std::string>(&node.value);
-  return value != nullptr && is_name(*value) ? std::optional(*value) : std::nullopt;
+  return value != nullptr && protocol::is_agent_name(*value, {}) ? std::optional(*value)
+                                                                 : std::nullopt;
 }
 std::string Name::write(const Value& value) {
   return quoted(value);

@@ -6,7 +6,6 @@
 //   kind.read(node);                  // std::optional<std::int64_t>
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -14,6 +13,7 @@
 #include <vector>
 
 #include "server/settings/document.hpp"
+#include "server/settings/units.hpp"
 
 namespace poolhall::settings {
 
@@ -27,43 +27,25 @@ struct WholeNumber {
   [[nodiscard]] static std::string write(Value value);
 };
 
-struct Number {
-  using Value = double;
-  double lowest;
+template <class Unit>
+struct Quantity {
+  using Value = typename Unit::Value;
+  double lowest;  // as in the file
   double highest;
 
   [[nodiscard]] std::string expected() const;
   [[nodiscard]] std::optional<Value> read(const Node& node) const;
   [[nodiscard]] static std::string write(Value value);
 };
+using Number = Quantity<PlainUnit>;
+using Seconds = Quantity<SecondsUnit>;
+using Millimetres = Quantity<MillimetresUnit>;
 
 struct Flag {
   using Value = bool;
   [[nodiscard]] static std::string expected() { return "true or false"; }
   [[nodiscard]] static std::optional<Value> read(const Node& node);
   [[nodiscard]] static std::string write(Value value) { return value ? "true" : "false"; }
-};
-
-// Seconds in the file, microseconds in the program.
-struct Seconds {
-  using Value = std::chrono::microseconds;
-  double lowest;
-  double highest;
-
-  [[nodiscard]] std::string expected() const;
-  [[nodiscard]] std::optional<Value> read(const Node& node) const;
-  [[nodiscard]] static std::string write(Value value);
-};
-
-// Millimetres in the file, metres in the program.
-struct Millimetres {
-  using Value = double;
-  double lowest;
-  double highest;
-
-  [[nodiscard]] std::string expected() const;
-  [[nodiscard]] std::optional<Value> read(const Node& node) const;
-  [[nodiscard]] static std::string write(Value value);
 };
 
 // Any text of a line without control characters, not empty.

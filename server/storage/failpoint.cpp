@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <array>
 #include <atomic>
 #include <charconv>
 #include <csignal>
@@ -12,10 +11,12 @@
 #include <string>
 #include <utility>
 
+#include "physics/words.hpp"
+
 namespace poolhall::storage {
 namespace {
 
-constexpr std::array<std::pair<Failpoint, std::string_view>, 5> places{{
+constexpr physics::Words<Failpoint, 5> places{{
     {Failpoint::after_receive, "after_receive"},
     {Failpoint::after_simulate, "after_simulate"},
     {Failpoint::before_commit, "before_commit"},
@@ -63,19 +64,11 @@ std::atomic<bool> has_handler{false};
 }  // namespace
 
 std::string_view name(Failpoint place) {
-  for (const auto& [candidate, text] : places) {
-    if (candidate == place)
-      return text;
-  }
-  return "";
+  return physics::word_of(places, place);
 }
 
 std::optional<Failpoint> failpoint_named(std::string_view name) {
-  for (const auto& [candidate, text] : places) {
-    if (text == name)
-      return candidate;
-  }
-  return std::nullopt;
+  return physics::value_of(places, name);
 }
 
 void failpoint(Failpoint place) {

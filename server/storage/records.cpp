@@ -1,12 +1,15 @@
 #include "server/storage/records.hpp"
 
-#include <array>
-#include <utility>
+#include "physics/words.hpp"
 
 namespace poolhall::storage {
 namespace {
 
-constexpr std::array<std::pair<TournamentStatus, std::string_view>, 5> tournament_statuses{{
+using physics::value_of;
+using physics::word_of;
+using physics::Words;
+
+constexpr Words<TournamentStatus, 5> tournament_statuses{{
     {TournamentStatus::open, "open"},
     {TournamentStatus::running, "running"},
     {TournamentStatus::paused, "paused"},
@@ -14,7 +17,7 @@ constexpr std::array<std::pair<TournamentStatus, std::string_view>, 5> tournamen
     {TournamentStatus::aborted, "aborted"},
 }};
 
-constexpr std::array<std::pair<TurnAction, std::string_view>, 7> turn_actions{{
+constexpr Words<TurnAction, 7> turn_actions{{
     {TurnAction::shot, "shot"},
     {TurnAction::decision, "decision"},
     {TurnAction::lost_turn, "lost_turn"},
@@ -24,29 +27,11 @@ constexpr std::array<std::pair<TurnAction, std::string_view>, 7> turn_actions{{
     {TurnAction::void_game, "void_game"},
 }};
 
-constexpr std::array<std::pair<Mirror, std::string_view>, 3> mirrors{{
+constexpr Words<Mirror, 3> mirrors{{
     {Mirror::none, "none"},
     {Mirror::rack, "rack"},
     {Mirror::noise, "noise"},
 }};
-
-template <class Names, class Value>
-std::string_view name_in(const Names& names, Value value) {
-  for (const auto& [candidate, text] : names) {
-    if (candidate == value)
-      return text;
-  }
-  return "";
-}
-
-template <class Value, class Names>
-std::optional<Value> value_in(const Names& names, std::string_view name) {
-  for (const auto& [candidate, text] : names) {
-    if (text == name)
-      return candidate;
-  }
-  return std::nullopt;
-}
 
 }  // namespace
 
@@ -56,24 +41,24 @@ UnixMicros unix_now() {
 }
 
 std::string_view name(TournamentStatus status) {
-  return name_in(tournament_statuses, status);
+  return word_of(tournament_statuses, status);
 }
 std::optional<TournamentStatus> tournament_status(std::string_view name) {
-  return value_in<TournamentStatus>(tournament_statuses, name);
+  return value_of(tournament_statuses, name);
 }
 
 std::string_view name(Mirror mirror) {
-  return name_in(mirrors, mirror);
+  return word_of(mirrors, mirror);
 }
 std::optional<Mirror> mirror(std::string_view name) {
-  return value_in<Mirror>(mirrors, name);
+  return value_of(mirrors, name);
 }
 
 std::string_view name(TurnAction action) {
-  return name_in(turn_actions, action);
+  return word_of(turn_actions, action);
 }
 std::optional<TurnAction> turn_action(std::string_view name) {
-  return value_in<TurnAction>(turn_actions, name);
+  return value_of(turn_actions, name);
 }
 
 rules::GameSettings GameRecord::settings() const {

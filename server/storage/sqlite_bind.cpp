@@ -3,23 +3,6 @@
 #include "server/storage/sqlite_rows.hpp"
 
 namespace poolhall::storage {
-namespace {
-
-std::string_view call_kind(rules::Call::Kind kind) {
-  switch (kind) {
-    case rules::Call::Kind::pocket:
-      return "pocket";
-    case rules::Call::Kind::safety:
-      return "safety";
-    case rules::Call::Kind::push_out:
-      return "push_out";
-    case rules::Call::Kind::none:
-      break;
-  }
-  return "none";
-}
-
-}  // namespace
 
 std::string insert_sql(std::string_view table, std::string_view columns) {
   std::string sql = "INSERT INTO " + std::string(table) + "(" + std::string(columns) + ") VALUES(?";
@@ -139,7 +122,7 @@ void Binder::put(const ShotPart& shot) {
     *this << shot.cue_ball->x << shot.cue_ball->y;
   else
     *this << std::nullopt << std::nullopt;
-  *this << call_kind(shot.call.kind);
+  *this << rules::name(shot.call.kind);
   if (shot.call.kind == rules::Call::Kind::pocket)
     *this << std::int64_t{physics::number(shot.call.ball)} << physics::name(shot.call.pocket);
   else

@@ -269,8 +269,10 @@ protocol::ShotParams Columns::stroke() {
 }
 
 rules::Call Columns::call() {
-  const std::string kind = text();
-  if (kind == "pocket") {
+  const std::optional<rules::Call::Kind> kind = rules::call_kind(text());
+  if (!kind)
+    fail("none, pocket, safety or push_out");
+  if (*kind == rules::Call::Kind::pocket) {
     const std::uint32_t ball = count();
     if (ball >= physics::max_balls)
       fail("a ball's number");
@@ -279,20 +281,13 @@ rules::Call Columns::call() {
       fail("the name of a pocket");
     return {rules::Call::Kind::pocket, physics::BallId{static_cast<std::uint8_t>(ball)}, *pocket};
   }
-  rules::Call call;
-  if (kind == "safety")
-    call.kind = rules::Call::Kind::safety;
-  else if (kind == "push_out")
-    call.kind = rules::Call::Kind::push_out;
-  else if (kind != "none")
-    fail("none, pocket, safety or push_out");
   for (int i = 0; i < 2; ++i) {
     if (!skip_null()) {
       ++next_;
       fail("null beside this kind of call");
     }
   }
-  return call;
+  return {*kind, {}, {}};
 }
 
 std::optional<ShotPart> Columns::shot() {

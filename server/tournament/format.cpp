@@ -7,12 +7,13 @@
 #include <numeric>
 #include <utility>
 
+#include "physics/words.hpp"
 #include "server/tournament/formats.hpp"
 
 namespace poolhall::tournament {
 namespace {
 
-constexpr std::array<std::pair<FormatKind, std::string_view>, 7> kinds{{
+constexpr physics::Words<FormatKind, 7> kinds{{
     {FormatKind::round_robin, "round_robin"},
     {FormatKind::swiss, "swiss"},
     {FormatKind::single_elimination, "single_elimination"},
@@ -25,15 +26,11 @@ constexpr std::array<std::pair<FormatKind, std::string_view>, 7> kinds{{
 }  // namespace
 
 std::string_view name(FormatKind kind) {
-  return std::find_if(kinds.begin(), kinds.end(),
-                      [kind](const auto& entry) { return entry.first == kind; })
-      ->second;
+  return physics::word_of(kinds, kind);
 }
 
 std::optional<FormatKind> format_kind(std::string_view name) {
-  const auto found = std::find_if(kinds.begin(), kinds.end(),
-                                  [name](const auto& entry) { return entry.second == name; });
-  return found == kinds.end() ? std::nullopt : std::optional(found->first);
+  return physics::value_of(kinds, name);
 }
 
 double MatchResult::first_points() const {

@@ -7,10 +7,12 @@
 #include <set>
 #include <utility>
 
+#include "physics/words.hpp"
+
 namespace poolhall::tournament {
 namespace {
 
-constexpr std::array<std::pair<TieBreak, std::string_view>, 5> tie_break_names{{
+constexpr physics::Words<TieBreak, 5> tie_break_names{{
     {TieBreak::direct_encounter, "direct_encounter"},
     {TieBreak::buchholz_cut1, "buchholz_cut1"},
     {TieBreak::buchholz, "buchholz"},
@@ -207,15 +209,11 @@ std::vector<ratings::RatedGame> rated(const std::vector<PlayedGame>& games) {
 }  // namespace
 
 std::string_view name(TieBreak tie_break) {
-  return std::find_if(tie_break_names.begin(), tie_break_names.end(),
-                      [&](const auto& entry) { return entry.first == tie_break; })
-      ->second;
+  return physics::word_of(tie_break_names, tie_break);
 }
 
 std::optional<TieBreak> tie_break(std::string_view name) {
-  const auto found = std::find_if(tie_break_names.begin(), tie_break_names.end(),
-                                  [&](const auto& entry) { return entry.second == name; });
-  return found == tie_break_names.end() ? std::nullopt : std::optional(found->first);
+  return physics::value_of(tie_break_names, name);
 }
 
 Standings standings(std::size_t entries, const std::vector<PlayedGame>& games,

@@ -22,6 +22,8 @@ class RawSqlite {
   RawSqlite& operator=(const RawSqlite&) = delete;
   ~RawSqlite() { sqlite3_close(handle_); }
 
+  [[nodiscard]] sqlite3* handle() const { return handle_; }
+
   void run(const std::string& sql) {
     char* message = nullptr;
     if (sqlite3_exec(handle_, sql.c_str(), nullptr, nullptr, &message) == SQLITE_OK)

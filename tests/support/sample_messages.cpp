@@ -1,9 +1,8 @@
 #include "tests/support/sample_messages.hpp"
 
-#include <stdexcept>
 #include <string>
 
-#include "physics/simulator.hpp"
+#include "protocol/shot_path.hpp"
 #include "protocol/table_json.hpp"
 
 namespace poolhall::test_support {
@@ -123,23 +122,11 @@ PlayedBreak played_break(rules::RuleSet rule_set) {
   played.cue_ball = {0.5, 0.4};
   played.params = {0.25, -1.5, 5, 89, 8};
   const auto ready =
-      rules::prepare_shot(played.before, played.call, played.cue_ball, table(), materials());
-  if (!ready) {
-    throw std::runtime_error(ready.error().reason);
-  }
-  const auto simulation =
-      physics::simulate(physics::Scene<double>{table(), materials(), rules::balls_on_table(*ready),
-                                               to_physics(played.params)},
-                        {});
-  if (!simulation) {
-    throw std::runtime_error(simulation.error().reason);
-  }
-  played.events = simulation->events;
-  auto ruling = rules::judge(*ready, played.call, played.events, table(), materials());
-  if (!ruling) {
-    throw std::runtime_error(ruling.error().reason);
-  }
-  played.ruling = std::move(*ruling);
+      ready_shot(played.before, played.call, played.cue_ball, played.params, table(), materials())
+          .value();
+  auto [simulation, ruling] = play_shot(ready).value();
+  played.events = std::move(simulation.events);
+  played.ruling = std::move(ruling);
   return played;
 }
 

@@ -6,8 +6,6 @@
 //     if (tampering.flip(value, random)) { ...verify...; tampering.restore(value); }
 #pragma once
 
-#include <sqlite3.h>
-
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +13,8 @@
 #include <random>
 #include <string>
 #include <vector>
+
+#include "tests/support/raw_sqlite.hpp"
 
 namespace poolhall::test_support {
 
@@ -31,13 +31,7 @@ struct StoredValue {
 
 class Tampering {
  public:
-  explicit Tampering(const std::filesystem::path& file) {
-    if (sqlite3_open(file.c_str(), &handle_) != SQLITE_OK)
-      throw std::runtime_error("cannot open " + file.string());
-  }
-  Tampering(const Tampering&) = delete;
-  Tampering& operator=(const Tampering&) = delete;
-  ~Tampering() { sqlite3_close(handle_); }
+  explicit Tampering(const std::filesystem::path& file) : database_(file) {}
 
   // All that are not null.
   [[nodiscard]] std::vector<StoredValue> values() {
@@ -70,7 +64,7 @@ class Tampering {
   void collect(const std::string& table, const std::string& key, std::vector<StoredValue>& all) {
     sqlite3_stmt* statement = nullptr;
     const std::string sql = "SELECT " + key + ", * FROM " + table;
-    sqlite3_prepare_v2(handle_, sql.c_str(), -1, &statement, nullptr);
+    sqlite3_prepare_v2(database_.handle(), sql.c_str(), -1, &statement, nullptr);
     constexpr int key_columns = 3;
     while (sqlite3_step(statement) == SQLITE_ROW) {
       for (int i = key_columns; i < sqlite3_column_count(statement); ++i) {
@@ -131,10 +125,11 @@ class Tampering {
     sqlite3_stmt* statement = nullptr;
     const std::string sql =
         "UPDATE " + value.table + " SET " + value.column + " = ?1 WHERE rowid = ?2";
-    sqlite3_prepare_v2(handle_, sql.c_str(), -1, &statement, nullptr);
+    sqlite3_prepare_v2(database_.handle(), sql.c_str(), -1, &statement, nullptr);
     bind(statement, value.type, bytes);
     sqlite3_bind_int64(statement, 2, row);
-    const bool stored = sqlite3_step(statement) == SQLITE_DONE && sqlite3_changes(handle_) == 1;
+    const bool stored =
+        sqlite3_step(statement) == SQLITE_DONE && sqlite3_changes(database_.handle()) == 1;
     sqlite3_finalize(statement);
     if (stored && is_rowid) {
       std::memcpy(&moved_to_, bytes.data(), 8);
@@ -143,7 +138,7 @@ class Tampering {
     return stored;
   }
 
-  sqlite3* handle_ = nullptr;
+  RawSqlite database_;
   std::int64_t moved_to_ = 0;  // where the row is whose id was changed
 };
 

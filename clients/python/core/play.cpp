@@ -6,6 +6,7 @@
 #include "clients/python/core/referee.hpp"
 #include "clients/python/core/workers.hpp"
 #include "physics/samples.hpp"
+#include "protocol/shot_path.hpp"
 #include "protocol/state_json.hpp"
 
 namespace poolhall::python {
@@ -13,12 +14,47 @@ namespace {
 
 using rules::GameState;
 
-Refused refused_by(const physics::Error& error, const char* prefix) {
-  return {protocol::error_from(error, prefix), std::string(name(error.fault))};
+// Why a move cannot be played, and the simulator's or the referee's own word for it.
+struct Refused {
+  protocol::Error error;
+  std::string fault;
+};
+
+// What the simulator refuses stands at `stroke` in a move.
+Refused refused_by(const protocol::ShotRefusal& refusal, const char* stroke) {
+  if (const auto* error = std::get_if<physics::Error>(&refusal)) {
+    return {protocol::error_from(*error, stroke), std::string(name(error->fault))};
+  }
+  const auto& why = std::get<rules::Refusal>(refusal);
+  return {protocol::error_from(why, ""), std::string(name(why.code))};
 }
 
-Refused refused_by(const rules::Refusal& refusal) {
-  return {protocol::error_from(refusal, ""), std::string(name(refusal.code))};
+struct PlayedMove {
+  protocol::ExecutedShot executed;
+  protocol::PlayedShot shot;
+};
+
+tl::expected<protocol::ReadyShot, Refused> ready_move(const GameState& state, const Move& move,
+                                                      const PlayTable& play) {
+  return protocol::ready_shot(state, move.call, move.cue_ball, move.shot, play.table,
+                              play.materials)
+      .map_error([](const auto& refusal) { return refused_by(refusal, "/shot"); });
+}
+
+// Of what was asked for; `ready` has the stroke that was played afterwards.
+tl::expected<PlayedMove, Refused> play_move(protocol::ReadyShot& ready,
+                                            const protocol::ShotParams& asked,
+                                            const protocol::NoiseParams& noise,
+                                            const physics::ShotDeviates& deviates) {
+  physics::Scene<double>& scene = ready.scene;
+  const protocol::ExecutedShot executed =
+      protocol::executed_shot(asked, noise, deviates, scene.balls, scene.table, scene.materials);
+  scene.shot = protocol::to_physics(executed.params);
+  auto played = protocol::play_shot(ready);
+  if (!played) {
+    return tl::unexpected(refused_by(played.error(), ""));
+  }
+  return PlayedMove{executed, *std::move(played)};
 }
 
 const GameState& state_of(py::handle argument, const std::string& field) {
@@ -35,7 +71,7 @@ struct Turn {
   Move move;
   std::uint64_t seed = 0;
   std::uint64_t sample = 0;
-  std::optional<ReadyMove> ready{};
+  std::optional<protocol::ReadyShot> ready{};
   std::optional<tl::expected<PlayedMove, Refused>> played{};
 };
 
@@ -46,13 +82,13 @@ void play(Turn& turn, const protocol::NoiseParams& noise, const PlayTable& table
     return;
   }
   turn.ready = std::move(*ready);
-  turn.played =
-      play_move(*turn.ready, noise, physics::sample_deviates(turn.seed, turn.sample), table);
+  turn.played = play_move(*turn.ready, turn.move.shot, noise,
+                          physics::sample_deviates(turn.seed, turn.sample));
 }
 
-Balls balls_of(const ReadyMove& ready) {
+Balls balls_of(const protocol::ReadyShot& ready) {
   Balls balls;
-  balls.set = ready.balls;
+  balls.set = ready.scene.balls;
   balls.row_count = ready.state.balls.size();
   for (std::size_t i = 0; i < balls.set.count; ++i) {
     balls.rows[i] = static_cast<std::uint8_t>(physics::number(balls.set[i].id));
@@ -70,9 +106,9 @@ py::object told(Turn& turn, const py::object& table) {
   const auto& e = played.executed.params;
   return py::make_tuple(
       std::make_unique<SimulationResult>(PlayedScene{table, balls_of(*turn.ready), e, {}},
-                                         std::move(played.simulation)),
+                                         std::move(played.shot.simulation)),
       py::make_tuple(e.a, e.b, e.theta, e.phi, e.v), played.executed.moved,
-      loads(protocol::encode_ruling(played.ruling)), played.ruling.next);
+      loads(protocol::encode_ruling(played.shot.ruling)), played.shot.ruling.next);
 }
 
 py::list play_many(const py::sequence& states, const py::sequence& moves, const py::object& table,
@@ -114,15 +150,16 @@ struct Chances {
 };
 
 void count(Chances& chances, const PlayedMove& played, rules::Seat mover) {
-  const GameState& next = played.ruling.next;
+  const rules::Ruling& ruling = played.shot.ruling;
+  const GameState& next = ruling.next;
   ++chances.samples;
   chances.moved += played.executed.moved ? 1U : 0U;
-  chances.fouls += played.ruling.fouls.empty() ? 0U : 1U;
+  chances.fouls += ruling.fouls.empty() ? 0U : 1U;
   if (next.result) {
     chances.won += next.result->winner == mover ? 1U : 0U;
     chances.lost += next.result->winner == rules::other(mover) ? 1U : 0U;
   } else {
-    chances.goes_on += next.to_move == mover && played.ruling.fouls.empty() ? 1U : 0U;
+    chances.goes_on += next.to_move == mover && ruling.fouls.empty() ? 1U : 0U;
   }
 }
 
@@ -135,14 +172,14 @@ struct Noise {
 tl::expected<Chances, Refused> rehearsed(const GameState& state, const Move& move,
                                          const Noise& noise, const PlayTable& table,
                                          const Stop& stop) {
-  const auto ready = ready_move(state, move, table);
+  auto ready = ready_move(state, move, table);
   if (!ready) {
     return tl::unexpected(ready.error());
   }
   Chances chances;
   for (std::uint64_t i = 0; i < noise.samples && !stop(); ++i) {
     const auto played =
-        play_move(*ready, noise.deviations, physics::sample_deviates(noise.seed, i), table);
+        play_move(*ready, move.shot, noise.deviations, physics::sample_deviates(noise.seed, i));
     if (!played) {
       return tl::unexpected(played.error());
     }
@@ -191,42 +228,6 @@ Move read_move(py::handle argument, const std::string& field) {
   const auto parts = py::reinterpret_borrow<py::tuple>(argument);
   return {read_shot(parts[0], field + "/shot"), read_call(parts[1], field + "/call"),
           read_place(parts[2], field + "/cue_ball")};
-}
-
-tl::expected<ReadyMove, Refused> ready_move(const GameState& state, const Move& move,
-                                            const PlayTable& play) {
-  auto ready = rules::prepare_shot(state, move.call, move.cue_ball, play.table, play.materials);
-  if (!ready) {
-    return tl::unexpected(refused_by(ready.error()));
-  }
-  const physics::BallSet<double> balls = rules::balls_on_table(*ready);
-  const auto possible =
-      physics::check_shot(physics::cue_shot(move.shot), balls, play.table, play.materials);
-  if (!possible) {
-    return tl::unexpected(refused_by(possible.error(), "/shot"));
-  }
-  return ReadyMove{std::move(*ready), balls, move};
-}
-
-tl::expected<PlayedMove, Refused> play_move(const ReadyMove& ready,
-                                            const protocol::NoiseParams& noise,
-                                            const physics::ShotDeviates& deviates,
-                                            const PlayTable& play) {
-  const protocol::ExecutedShot executed = protocol::executed_shot(
-      ready.move.shot, noise, deviates, ready.balls, play.table, play.materials);
-  auto simulation =
-      physics::simulate(physics::Scene<double>{play.table, play.materials, ready.balls,
-                                               physics::cue_shot(executed.params)},
-                        {});
-  if (!simulation) {
-    return tl::unexpected(refused_by(simulation.error(), ""));
-  }
-  auto ruling =
-      rules::judge(ready.state, ready.move.call, simulation->events, play.table, play.materials);
-  if (!ruling) {
-    return tl::unexpected(refused_by(ruling.error()));
-  }
-  return PlayedMove{executed, std::move(*simulation), std::move(*ruling)};
 }
 
 void bind_play(py::module_& module) {

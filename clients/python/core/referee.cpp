@@ -91,20 +91,6 @@ py::list off_table(const GameState& state) {
   return out;
 }
 
-std::string call_name(rules::Call::Kind kind) {
-  switch (kind) {
-    case rules::Call::Kind::none:
-      return "none";
-    case rules::Call::Kind::pocket:
-      return "pocket";
-    case rules::Call::Kind::safety:
-      return "safety";
-    case rules::Call::Kind::push_out:
-      return "push_out";
-  }
-  return {};
-}
-
 py::list numbers(const std::vector<rules::BallId>& balls) {
   py::list out;
   for (const rules::BallId ball : balls) {
@@ -130,7 +116,7 @@ py::dict legal(const GameState& state) {
   }
   py::list calls;
   for (const rules::Call::Kind kind : rules::legal_calls(state)) {
-    calls.append(call_name(kind));
+    calls.append(std::string(name(kind)));
   }
   out["balls"] = numbers(rules::callable_balls(state));
   out["first_balls"] = numbers(rules::legal_first_balls(state));

@@ -88,8 +88,7 @@ class Audience::Room {
       seats_.push_back(std::make_unique<Seat>(io_));
     }
     thread_ = std::thread([this] {
-      static_cast<void>(
-          ::setpriority(PRIO_PROCESS, 0, ::getpriority(PRIO_PROCESS, 0) + niceness));
+      static_cast<void>(::setpriority(PRIO_PROCESS, 0, ::getpriority(PRIO_PROCESS, 0) + niceness));
       for (const auto& seat : seats_) {
         enter(*seat);
       }

@@ -15,6 +15,7 @@
 #include "server/storage/sqlite_database.hpp"
 #include "tests/bench/server/metrics.hpp"
 #include "tests/bench/server/place.hpp"
+#include "tests/bench/server/terms.hpp"
 #include "tests/support/process/server_process.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -28,16 +29,6 @@ using test_support::ServerProcess;
 constexpr double goal_bytes_an_agent = 16 * 1024;
 constexpr double goal_shots_a_second = 5'000;
 constexpr double goal_p99_ms = 10;
-// Some answers are decisions or refused; the time-table is set for so many more than shots.
-constexpr double answers_a_shot = 1.12;
-
-// The server's settings: the limits that one machine full of agents needs, and nothing else.
-constexpr std::string_view settings = R"([log]
-level = "warning"
-[limits]
-connections_per_address = 1000000
-connections = 1000000
-)";
 
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
@@ -164,7 +155,7 @@ std::vector<std::string> generator(const ServerBenchOptions& options, const Scen
 Measured run(const ServerBenchOptions& options, const Scene& scene,
              const std::filesystem::path& directory) {
   const std::filesystem::path config = directory / "settings.toml";
-  std::ofstream(config) << settings;
+  std::ofstream(config) << server_settings;
   ServerProcess server({.program = options.program,
                         .directory = directory,
                         .more_arguments = {"--config", config.string()}});

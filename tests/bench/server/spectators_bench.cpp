@@ -14,6 +14,7 @@
 #include "tests/bench/server/audience.hpp"
 #include "tests/bench/server/metrics.hpp"
 #include "tests/bench/server/place.hpp"
+#include "tests/bench/server/terms.hpp"
 #include "tests/support/process/server_process.hpp"
 #include "tests/support/temporary_directory.hpp"
 
@@ -24,20 +25,11 @@ using test_support::Child;
 using test_support::ServerProcess;
 
 constexpr double most_ratio = 1.10;
-// Some answers are decisions or refused; the time-tables are set for so many more than shots.
-constexpr double answers_a_shot = 1.12;
 constexpr double long_enough = 86'400;  // seconds, of the watched game's agents
-constexpr int warm_up = 4;           // seconds: the spectators take their seats
+constexpr int warm_up = 4;              // seconds: the spectators take their seats
 // A window in which the watched game ends is no window with spectators: it is run again.
 constexpr double least_of_turns = 0.75;
 constexpr int most_trials = 5;
-
-constexpr std::string_view settings = R"([log]
-level = "warning"
-[limits]
-connections_per_address = 1000000
-connections = 1000000
-)";
 
 struct Window {
   double p50 = 0;  // ms
@@ -135,7 +127,7 @@ class Run {
  private:
   static std::string settings_file(const std::filesystem::path& directory) {
     const std::filesystem::path file = directory / "settings.toml";
-    std::ofstream(file) << settings;
+    std::ofstream(file) << server_settings;
     return file.string();
   }
   // The game that the watched pair plays now.

@@ -26,11 +26,6 @@ std::string token_of(const std::string& name, std::uint64_t seed) {
   return token;
 }
 
-std::string_view error_code(std::string_view line) {
-  const std::size_t data = line.find(R"("data":)");
-  return data == std::string_view::npos ? "unknown" : load::word_in(line.substr(data), "code");
-}
-
 std::uint64_t occurrences(std::string_view text, std::string_view of) {
   std::uint64_t count = 0;
   for (std::size_t at = text.find(of); at != std::string_view::npos; at = text.find(of, at + 1)) {
@@ -300,7 +295,7 @@ void Survivor::reply_came(std::int64_t id, std::string_view line) {
 }
 
 void Survivor::error_came(std::int64_t id, std::string_view line) {
-  const std::string_view code = error_code(line);
+  const std::string_view code = load::error_code_in(line);
   if (id == login_id_ && (stage_ == Stage::logging_in || stage_ == Stage::registering)) {
     // The takeover's interval, or a registration that the server lost with its life.
     if (code == "unauthorized") {

@@ -3,13 +3,12 @@
 
 #include <fstream>
 
-#include "http_client.hpp"
+#include "admin_fixture.hpp"
 #include "protocol/json_node.hpp"
 #include "scripted_play.hpp"
 #include "server/net/tokens.hpp"
 #include "server/web/admin.hpp"
 #include "server/web/routes.hpp"
-#include "test_server.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace poolhall::net_tests {
@@ -17,57 +16,33 @@ namespace {
 
 using protocol::Received;
 
-const std::string token = "a-token-for-this-test-only";
-
 // Two agents who come by themselves, one match of two games.
 const std::string cup_file =
     "name = \"cup\"\ngames_per_match = 2\nmirrored = \"none\"\nnoise = \"none\"\n"
     "[[entry]]\nagent = \"anna\"\n[[entry]]\nagent = \"bert\"\n";
 
-class AdminCalls : public ::testing::Test {
+class AdminCalls : public AdminFixture {
  protected:
-  AdminCalls() {
-    std::ofstream(directory_ / "token") << token << "\n";
-    start();
-  }
-  void start() {
-    server_.reset();
-    net::ServerOptions options = test_options(directory_ / "test.db");
-    options.settings.http = "127.0.0.1:0";
-    options.settings.admin_token_file = (directory_ / "token").string();
-    options.settings.registration = registration_;
-    options.stored_tournaments = net::StoredTournaments::taken_up;
-    server_ = std::make_unique<TestServer>(options);
-  }
-  [[nodiscard]] std::uint16_t port() const { return server_->port(); }
-  [[nodiscard]] std::uint16_t http() const { return server_->server().http_endpoint()->port; }
-  [[nodiscard]] HttpAnswer post(const std::string& path, const std::string& body = {}) const {
-    return http_call(http(), {"POST", "/api/admin/" + path, body, token});
-  }
   [[nodiscard]] std::string status_of(const std::string& tournament) const {
     return member(http_call(http(), {"GET", "/api/tournaments/" + tournament}).body, "status");
   }
-
-  test_support::TemporaryDirectory directory_;
-  std::string registration_ = "open";
-  std::unique_ptr<TestServer> server_;
 };
 
 TEST_F(AdminCalls, NeedTheTokenInTheHeader) {
   HttpCall call{"POST", "/api/admin/agents", R"({"name":"anna"})"};
   EXPECT_EQ(http_call(http(), call).status, 401);
-  call.token = token + "x";
+  call.token = token_ + "x";
   EXPECT_EQ(http_call(http(), call).status, 401);
   call.token.clear();
-  call.path += "?token=" + token;
+  call.path += "?token=" + token_;
   EXPECT_EQ(http_call(http(), call).status, 401);
   call.path = "/api/admin/agents";
-  call.token = token;
+  call.token = token_;
   EXPECT_EQ(http_call(http(), call).status, 201);
 }
 
 TEST_F(AdminCalls, AreNotMadeByOtherSitesPages) {
-  HttpCall call{"POST", "/api/admin/agents", R"({"name":"anna"})", token};
+  HttpCall call{"POST", "/api/admin/agents", R"({"name":"anna"})", token_};
   call.headers = {"Origin: http://evil.example"};
   EXPECT_EQ(http_call(http(), call).status, 403);
   call.headers = {"Origin: null"};
@@ -85,7 +60,7 @@ TEST_F(AdminCalls, AreRefusedByAServerWithoutAToken) {
   options.settings.http = "127.0.0.1:0";
   TestServer other{options};
   const auto answer = http_call(other.server().http_endpoint()->port,
-                                {"POST", "/api/admin/agents", R"({"name":"a"})", token});
+                                {"POST", "/api/admin/agents", R"({"name":"a"})", token_});
   EXPECT_EQ(answer.status, 403);
   EXPECT_EQ(member(answer.body, "code"), "no_admin");
 }
@@ -95,7 +70,7 @@ TEST_F(AdminCalls, SayWhatIsWrongWithThem) {
   EXPECT_EQ(post("tournaments/cup").status, 404);
   EXPECT_EQ(post("tournaments//start").status, 404);
   EXPECT_EQ(post("games/x/void").status, 404);
-  EXPECT_EQ(http_call(http(), {"GET", "/api/admin/agents", "", token}).status, 405);
+  EXPECT_EQ(http_call(http(), {"GET", "/api/admin/agents", "", token_}).status, 405);
   const auto no_name = post("agents", "{}");
   EXPECT_EQ(no_name.status, 400);
   EXPECT_NE(member(no_name.body, "reason").find("/name"), std::string::npos) << no_name.body;
@@ -266,7 +241,7 @@ TEST_F(AdminCalls, AndAllOtherPathsStandInTheOpenApiDocument) {
         path.replace(at, std::string(parameter).size(), "7");
       }
     }
-    HttpCall call{std::string{route.method}, path, "", token};
+    HttpCall call{std::string{route.method}, path, "", token_};
     const auto answer = http_call(http(), call);
     EXPECT_EQ(answer.body.find("no such path"), std::string::npos) << path;
     EXPECT_NE(answer.status, 405) << path;

@@ -1,14 +1,12 @@
 // Who comes to a tournament and who leaves it, before it begins and while it goes on.
 #include <gtest/gtest.h>
 
-#include <fstream>
+#include <map>
 
-#include "http_client.hpp"
+#include "admin_fixture.hpp"
 #include "scripted_play.hpp"
 #include "server/ledger/stored_tournament.hpp"
 #include "server/storage/sqlite_database.hpp"
-#include "test_server.hpp"
-#include "tests/support/temporary_directory.hpp"
 #include "wire_client.hpp"
 
 // A namespace of its own: some of its names are another file's.
@@ -18,7 +16,6 @@ namespace {
 using protocol::Membership;
 using protocol::Received;
 
-const std::string token = "a-token-for-this-test-only";
 const std::string head = "name = \"cup\"\nmirrored = \"none\"\nnoise = \"none\"\n";
 const std::string anna_and_bert = "[[entry]]\nagent = \"anna\"\n[[entry]]\nagent = \"bert\"\n";
 const std::string swiss =
@@ -28,20 +25,8 @@ const std::string three = head +
                           "[[entry]]\nagent = \"anna\"\n[[entry]]\nagent = \"bert\"\n"
                           "[[entry]]\nagent = \"carl\"\n";
 
-class Entries : public ::testing::Test {
+class Entries : public AdminFixture {
  protected:
-  Entries() {
-    std::ofstream(directory_ / "token") << token << "\n";
-    start();
-  }
-  void start() {
-    server_.reset();
-    net::ServerOptions options = test_options(directory_ / "test.db");
-    options.settings.http = "127.0.0.1:0";
-    options.settings.admin_token_file = (directory_ / "token").string();
-    options.stored_tournaments = net::StoredTournaments::taken_up;
-    server_ = std::make_unique<TestServer>(options);
-  }
   [[nodiscard]] std::unique_ptr<WireClient> client(const std::string& name) {
     auto joined = std::make_unique<WireClient>(server_->port());
     tokens_[name] = joined->join(name);
@@ -51,10 +36,6 @@ class Entries : public ::testing::Test {
     auto back = std::make_unique<WireClient>(server_->port());
     back->login(tokens_.at(name));
     return back;
-  }
-  [[nodiscard]] HttpAnswer post(const std::string& path, const std::string& body = {}) const {
-    return http_call(server_->server().http_endpoint()->port,
-                     {"POST", "/api/admin/" + path, body, token});
   }
   void create(const std::string& file) {
     const auto made = post("tournaments", file);
@@ -66,8 +47,6 @@ class Entries : public ::testing::Test {
     return ledger::stored_tournament(*reader, "cup").value()->book.names();
   }
 
-  test_support::TemporaryDirectory directory_;
-  std::unique_ptr<TestServer> server_;
   std::map<std::string, std::string> tokens_;
 };
 

@@ -26,6 +26,29 @@ class LimitsTest : public ::testing::Test {
   }
   [[nodiscard]] std::uint16_t port() { return server().port(); }
 
+  // One of two agents asks for 9 MB of replies and reads none: it is sent away for that, and the
+  // other one is served as before.
+  void leave_replies_unread() {
+    limits().input_bytes_per_second = 1 << 30;
+    limits().messages_per_second = 1e6;
+    limits().message_burst = 1e6;
+    WireClient anna{port()};
+    WireClient lazy{port()};
+    anna.join("anna");
+    lazy.join("lazy");
+    const std::string ping = R"({"jsonrpc":"2.0","id":1,"method":"ping","params":{"t":")" +
+                             std::string(3'000, 'x') + "\"}}\n";
+    for (int i = 0; i < 3'000; ++i) {
+      lazy.send_bytes(ping);
+    }
+    std::string last;
+    while (auto line = lazy.read_line()) {
+      last = std::move(*line);
+    }
+    EXPECT_NE(last.find("unread_output"), std::string::npos) << last.substr(0, 200);
+    static_cast<void>(anna.call<protocol::PingReply>(protocol::Ping{}));
+  }
+
   test_support::TemporaryDirectory directory_;
   net::ServerOptions options_ = test_options(directory_ / "test.db");
   std::unique_ptr<TestServer> server_;
@@ -202,46 +225,12 @@ TEST_F(LimitsTest, AFullServerSaysSo) {
 
 TEST_F(LimitsTest, WhoDoesNotReadIsSentAwayAndNobodyElse) {
   limits().output_queue_bytes = 64 * 1024;
-  limits().input_bytes_per_second = 1 << 30;
-  limits().messages_per_second = 1e6;
-  limits().message_burst = 1e6;
-  WireClient anna{port()};
-  WireClient lazy{port()};
-  anna.join("anna");
-  lazy.join("lazy");
-  const std::string ping = R"({"jsonrpc":"2.0","id":1,"method":"ping","params":{"t":")" +
-                           std::string(3'000, 'x') + "\"}}\n";
-  for (int i = 0; i < 3'000; ++i) {
-    lazy.send_bytes(ping);
-  }
-  std::string last;
-  while (auto line = lazy.read_line()) {
-    last = std::move(*line);
-  }
-  EXPECT_NE(last.find("unread_output"), std::string::npos) << last.substr(0, 200);
-  static_cast<void>(anna.call<protocol::PingReply>(protocol::Ping{}));
+  leave_replies_unread();
 }
 
 TEST_F(LimitsTest, WhoLeavesMostUnreadIsSentAwayWhenAllTogetherLeaveTooMuch) {
   limits().output_bytes_in_all = 128 * 1024;
-  limits().input_bytes_per_second = 1 << 30;
-  limits().messages_per_second = 1e6;
-  limits().message_burst = 1e6;
-  WireClient anna{port()};
-  WireClient lazy{port()};
-  anna.join("anna");
-  lazy.join("lazy");
-  const std::string ping = R"({"jsonrpc":"2.0","id":1,"method":"ping","params":{"t":")" +
-                           std::string(3'000, 'x') + "\"}}\n";
-  for (int i = 0; i < 3'000; ++i) {
-    lazy.send_bytes(ping);
-  }
-  std::string last;
-  while (auto line = lazy.read_line()) {
-    last = std::move(*line);
-  }
-  EXPECT_NE(last.find("unread_output"), std::string::npos) << last.substr(0, 200);
-  static_cast<void>(anna.call<protocol::PingReply>(protocol::Ping{}));
+  leave_replies_unread();
 }
 
 // The sender has used up its pace for half a minute, and its clock has two seconds. What it sent

@@ -8,60 +8,16 @@
 
 #include "clients/bots/exhibition.hpp"
 #include "clients/bots/house_bots.hpp"
-#include "physics/simulator.hpp"
+#include "placed_balls.hpp"
 
 namespace poolhall::bots {
 namespace {
 
 using rules::Decision;
 using rules::TurnKind;
-using rules::Whereabouts;
-
-client::GameInfo info(std::string_view noise = "olympiad") {
-  return {.game = "1",
-          .table = physics::preset_table("olympiad").value(),
-          .materials = physics::preset_materials("olympiad").value(),
-          .noise = protocol::noise_preset(noise)};
-}
-
-struct Placed {
-  unsigned id;
-  Point at;
-};
-
-// The first player has solids; every ball that is not named is down.
-rules::GameState table_with(std::initializer_list<Placed> balls, TurnKind kind = TurnKind::shot) {
-  const client::GameInfo game = info();
-  rules::GameState state = rules::new_game({}, game.table, game.materials);
-  state.kind = kind;
-  state.turn = 9;
-  rules::EightBallMemory memory;
-  memory.first_seat_group = rules::Group::solids;
-  state.memory = memory;
-  for (auto& ball : state.balls) {
-    ball.where = Whereabouts::pocketed;
-    ball.pocket = PocketId::foot_left;
-  }
-  for (const auto& [id, at] : balls) {
-    state.balls[id] = {BallId{static_cast<std::uint8_t>(id)}, Whereabouts::on_table, at, {}};
-  }
-  return state;
-}
 
 client::Shot chosen(const client::GameInfo& game, const rules::GameState& state) {
   return std::get<client::Shot>(GreedyBot(game, {}).choose({game, state}));
-}
-
-rules::Ruling played_exactly(const client::GameInfo& game, const rules::GameState& state,
-                             const client::Shot& shot) {
-  const auto ready =
-      rules::prepare_shot(state, shot.call, shot.cue_ball, game.table, game.materials).value();
-  const auto simulation =
-      physics::simulate<double>({game.table, game.materials, rules::balls_on_table(ready),
-                                 protocol::to_physics(shot.stroke)},
-                                {})
-          .value();
-  return rules::judge(ready, shot.call, simulation.events, game.table, game.materials).value();
 }
 
 TEST(GreedyBot, PotsABallInFrontOfAPocketAndCallsIt) {
@@ -95,33 +51,6 @@ TEST(GreedyBot, PlacesTheCueBallForAPotWithTheBallInHand) {
   const auto ruling = played_exactly(game, state, shot);
   ASSERT_EQ(ruling.pocketed.size(), 1U);
   EXPECT_EQ(ruling.pocketed[0].ball, BallId{1});
-}
-
-TEST(GreedyBot, FromTheKitchenItStrikesABallOutsideFirst) {
-  const auto game = info("none");
-  const auto state = table_with(
-      {{0, {0.558, 0.3}}, {1, {0.3, 0.2}}, {2, {0.558, 1.6}}, {8, {0.9, 1.2}}, {9, {0.8, 0.9}}},
-      TurnKind::ball_in_hand_behind_head_string);
-  const auto shot = chosen(game, state);
-  ASSERT_TRUE(shot.cue_ball);
-  EXPECT_LT(shot.cue_ball->y, game.table.head_string);
-  EXPECT_TRUE(played_exactly(game, state, shot).legal);
-}
-
-TEST(GreedyBot, HiddenBehindAnotherBallItStillPlaysALegalShot) {
-  const auto game = info("none");
-  const auto state = table_with({{0, {0.558, 0.3}},
-                                 {1, {0.558, 1.9}},
-                                 {8, {0.5, 1.0}},
-                                 {9, {0.558, 1.0}},
-                                 {10, {0.616, 1.0}}});
-  EXPECT_TRUE(played_exactly(game, state, chosen(game, state)).legal);
-}
-
-TEST(GreedyBot, BreaksLegallyWithoutNoise) {
-  const auto game = info("none");
-  const rules::GameState state = rules::new_game({}, game.table, game.materials);
-  EXPECT_TRUE(played_exactly(game, state, chosen(game, state)).legal);
 }
 
 TEST(GreedyBot, KeepsTheTableWhenItMayChoose) {

@@ -8,7 +8,7 @@
 
 #include "clients/bots/greedy_bot.hpp"
 #include "clients/bots/random_bot.hpp"
-#include "physics/simulator.hpp"
+#include "protocol/shot_path.hpp"
 #include "rules/referee.hpp"
 
 namespace poolhall::bots {
@@ -46,20 +46,16 @@ class JudgedTwice {
 
  private:
   void take(const client::Shot& shot) {
-    const auto ready =
-        rules::prepare_shot(state_, shot.call, shot.cue_ball, table_, materials_).value();
-    const auto balls = rules::balls_on_table(ready);
-    Dice dice(Dice::key(1, info_.game), state_.turn);
-    const auto executed = protocol::executed_shot(shot.stroke, *info_.noise, dice.deviates(), balls,
-                                                  table_, materials_);
-    const auto simulation =
-        physics::simulate<double>(
-            {table_, materials_, balls, protocol::to_physics(executed.params)}, {})
+    auto ready =
+        protocol::ready_shot(state_, shot.call, shot.cue_ball, shot.stroke, table_, materials_)
             .value();
-    const auto ruling =
-        rules::judge(ready, shot.call, simulation.events, table_, materials_).value();
-    Position before = position_of(ready);
-    before.at[0] = balls[0].position;
+    Dice dice(Dice::key(1, info_.game), state_.turn);
+    const auto executed = protocol::executed_shot(shot.stroke, *info_.noise, dice.deviates(),
+                                                  ready.scene.balls, table_, materials_);
+    ready.scene.shot = protocol::to_physics(executed.params);
+    const auto [simulation, ruling] = protocol::play_shot(ready).value();
+    Position before = position_of(ready.state);
+    before.at[0] = ready.scene.balls[0].position;
     compare(quickly(before, shot.call, simulation), ruling.next);
     state_ = ruling.next;
   }

@@ -4,6 +4,8 @@
 
 #include <variant>
 
+#include "protocol/shot_path.hpp"
+
 namespace poolhall::bots {
 namespace {
 
@@ -31,13 +33,9 @@ TEST_P(EveryShotKind, ItsShotCanAlwaysBePlayed) {
     const client::Move move = bot.choose({game, state});
     ASSERT_TRUE(std::holds_alternative<client::Shot>(move));
     const auto& shot = std::get<client::Shot>(move);
-    const auto ready =
-        rules::prepare_shot(state, shot.call, shot.cue_ball, game.table, game.materials);
-    ASSERT_TRUE(ready) << ready.error().reason;
-    const auto possible =
-        physics::check_shot(protocol::to_physics(shot.stroke), rules::balls_on_table(*ready),
-                            game.table, game.materials);
-    EXPECT_TRUE(possible) << possible.error().reason;
+    const auto ready = protocol::ready_shot(state, shot.call, shot.cue_ball, shot.stroke,
+                                            game.table, game.materials);
+    ASSERT_TRUE(ready) << protocol::request_error(ready.error()).reason;
   }
 }
 

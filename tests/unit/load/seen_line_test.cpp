@@ -60,9 +60,12 @@ TEST(SeenLine, FindsTheDecisionsOfADecision) {
 TEST(SeenLine, TellsRepliesFromErrors) {
   const protocol::RequestId id{"12"};
   EXPECT_EQ(look_at(protocol::encode_reply(id, protocol::GameReply{})).kind, LineKind::reply);
-  const SeenLine error = look_at(protocol::encode_error(id, {}));
+  const std::string line =
+      protocol::encode_error(id, {protocol::ErrorCode::bad_shot, "/params/params/v", "too fast"});
+  const SeenLine error = look_at(line);
   EXPECT_EQ(error.kind, LineKind::error);
   EXPECT_EQ(error.id, 12);
+  EXPECT_EQ(error_code_in(line), "bad_shot");
   EXPECT_EQ(look_at(protocol::encode_error({}, {})).id, 0);
 }
 

@@ -7,8 +7,8 @@
 #include "server/net/deadline_queue.hpp"
 #include "server/net/lag_meter.hpp"
 #include "server/net/server.hpp"
-#include "server/web/token_bucket.hpp"
 #include "server/net/tokens.hpp"
+#include "server/web/token_bucket.hpp"
 
 namespace poolhall::net {
 namespace {
