@@ -165,7 +165,7 @@ std::vector<BadEnd> let_them_come(std::uint16_t port, std::uint32_t rounds, EndL
           if (visit.fault) {
             end.faults.push_back(*visit.fault);
           }
-          if (!end.reason.starts_with(client.expected)) {
+          if (end.reason.empty() || !end.reason.starts_with(client.expected)) {
             end.faults.push_back("expected \"" + std::string(client.expected) + "\"");
           }
         } catch (const std::exception& error) {
