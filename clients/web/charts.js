@@ -4,7 +4,8 @@
 
 import { svg } from './dom.js';
 
-const palette = ['#4fb98a', '#f2b705', '#6aa5ff', '#ff7a59', '#c58bff', '#5fd3d8', '#ff9ecb', '#a8c256'];
+/** Of the scheme's, style.css. */
+const seriesColours = 8;
 
 /** Characters; the whole name is in the tooltip. */
 const longestLabel = 20;
@@ -13,7 +14,7 @@ const longestLabel = 20;
  * A colour that stays with a name's place.
  * @param {number} index
  */
-export const seriesColour = (index) => palette[index % palette.length];
+export const seriesColour = (index) => `var(--series${index % seriesColours})`;
 
 /**
  * Round numbers from low to high.

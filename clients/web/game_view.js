@@ -102,7 +102,7 @@ export class GameView {
     this.playback.stop();
     this.live?.close();
     clearInterval(this.ticker);
-    this.observer?.disconnect();
+    this.view?.unwatch();
   }
 
   build() {
@@ -139,8 +139,7 @@ export class GameView {
         h('aside', {}, h('div', { class: 'players' }, this.players), this.ruling,
           h('h2', {}, 'Turns'), this.list)));
     this.view = new TableView(canvas, game.board.table, game.board.physics.ball_radius);
-    this.observer = new ResizeObserver(() => this.view?.resize() && this.frame());
-    this.observer.observe(canvas);
+    this.view.watch(() => this.frame());
     this.paintList();
   }
 

@@ -89,7 +89,7 @@ export class WorkbenchView {
   close() {
     this.abort.abort();
     this.playback.stop();
-    this.observer?.disconnect();
+    this.view?.unwatch();
   }
 
   /** A position of a game: #/workbench?game=17&turn=3 */
@@ -129,15 +129,15 @@ export class WorkbenchView {
         h('aside', { class: 'bench' }, this.tray, this.strokePanel(), this.modelPanel(), this.jsonPanel())));
     this.placeTable();
     this.listenToPointer();
-    this.observer = new ResizeObserver(() => this.view?.resize() && this.frame());
-    this.observer.observe(this.canvas);
   }
 
   placeTable() {
     const { table, physics } = this.numbers;
     const canvas = /** @type {HTMLCanvasElement} */ (this.canvas);
     canvas.style.setProperty('--shape', String(table.length / table.width));
+    this.view?.unwatch();
     this.view = new TableView(canvas, table, physics.ball_radius);
+    this.view.watch(() => this.frame());
   }
 
   strokePanel() {
