@@ -3,9 +3,9 @@
 
 import { getJson, postForText } from './api.js';
 import { button, fill, h } from './dom.js';
-import { sceneOf } from './game_view.js';
 import { Motion } from './motion.js';
 import { Playback } from './playback.js';
+import { sceneOf } from './scene.js';
 import { TableView } from './table_view.js';
 import { TransportBar } from './transport_bar.js';
 import { pocketWords } from './words.js';
