@@ -1,19 +1,18 @@
 #include "server/web/http_call.hpp"
 
 #include <fmt/format.h>
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/connect.hpp>
 #include <boost/asio/io_context.hpp>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl/context.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http.hpp>
 #include <optional>
 #include <string_view>
 #include <utility>
 
+#include "server/web/awaited.hpp"
 #include "server/web/wire.hpp"
 
 namespace poolhall::web {
@@ -25,7 +24,6 @@ using Reply = tl::expected<HttpReply, std::string>;
 
 namespace {
 
-constexpr auto awaited = asio::as_tuple(asio::use_awaitable);
 constexpr std::uint64_t longest_answer = std::uint64_t{1} << 30U;
 
 struct Address {

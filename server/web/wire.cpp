@@ -1,14 +1,14 @@
 #include "server/web/wire.hpp"
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/bind_executor.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/ssl/host_name_verification.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/ssl.hpp>
 #include <optional>
 #include <utility>
+
+#include "server/web/awaited.hpp"
 
 namespace poolhall::web {
 
@@ -18,7 +18,6 @@ using asio::ip::tcp;
 
 namespace {
 
-constexpr auto awaited = asio::as_tuple(asio::use_awaitable);
 constexpr std::chrono::seconds handshake_patience{10};
 constexpr std::chrono::seconds farewell{2};
 constexpr std::size_t farewell_bytes = 1024 * 1024;
