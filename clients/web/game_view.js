@@ -262,6 +262,7 @@ export class GameView {
    * @param {any} message
    */
   async receiveSnapshot(message) {
+    const came = performance.now();
     const newest = message.last?.turn ?? 0;
     if (!message.live || newest !== (this.game.turns.at(-1)?.turn ?? 0)) {
       this.game = await getJson(`/api/games/${this.id}`, this.abort.signal).catch(() => this.game);
@@ -269,13 +270,19 @@ export class GameView {
       this.paintPlayers();
       this.root.dataset.over = String(this.game.over);
     }
-    if (this.following && message.last) {
+    if (!this.following) {
+      return;
+    }
+    const last = this.game.turns.at(-1)?.turn;
+    if (message.last) {
       this.waiting = [];
       // In the middle of a shot: from where it is by now.
-      const age = (message.time_ms - message.last.stored_ms) / 1000;
-      this.present(message.last, age, true);
-    } else if (this.following && message.state) {
+      const age = message.time_ms - message.last.stored_ms + performance.now() - came;
+      this.present(message.last, age / 1000, true);
+    } else if (message.state) {
       this.showState(message.state);
+    } else if (last !== undefined && last !== this.turn?.turn) {
+      await this.showTurn(last, -0.2, true);  // how it ended while nobody told
     }
   }
 

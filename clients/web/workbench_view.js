@@ -215,6 +215,7 @@ export class WorkbenchView {
   }
 
   takeJson() {
+    const former = this.scene;
     try {
       const scene = JSON.parse(this.json?.value ?? '');
       if (!Array.isArray(scene.balls) || typeof scene.table !== 'string') {
@@ -229,6 +230,7 @@ export class WorkbenchView {
       this.placeTable();
       this.lay();
     } catch (error) {
+      this.scene = former;
       this.say(`The scene cannot be used: ${error instanceof Error ? error.message : error}.`);
     }
   }
