@@ -74,6 +74,7 @@ export class GameView {
     this.playback.stop();
     this.live?.close();
     clearInterval(this.ticker);
+    clearTimeout(this.remembering);
     this.view?.unwatch();
   }
 
@@ -372,9 +373,10 @@ export class GameView {
     this.remember();
   }
 
-  /** The address of what is on the screen. */
+  /** The address of what is on the screen; not once another one was asked for. */
   remember() {
-    if (!this.turn || this.following) {
+    const [, page, id] = location.hash.split(/[/?]/);
+    if (!this.turn || this.following || page !== 'games' || id !== String(this.id)) {
       return;
     }
     const { t, playing } = this.playback;

@@ -102,6 +102,18 @@ test('a game is met in the middle of a shot', enough, async () => {
   await close(page);
 });
 
+test('who leaves a game at once is not held back by its address', enough, async () => {
+  const id = await game(['quick', 'slow'], { game_ms: 600_000 }, (bot, turn) => (turn.turn === 1 ? bot.shoot(turn, hardBreak) : null));
+  await until(async () => (await api(`/api/games/${id}`)).turns.length > 0, 'the break is stored');
+  const page = await open(`/games/${id}/shots/1?t=0.5`, `games/${id}`);
+  await page.evaluate(() => {
+    location.hash = '#/agents';
+    window.poolhall.view.remember();  // as its timer may, before the page hears of the new address
+  });
+  await page.ready('agents/');
+  await close(page);
+});
+
 /** In the page: a game's turns over and over again, until there are many. */
 function lengthen(id, most) {
   const real = window.fetch;
