@@ -86,13 +86,14 @@ test('a game that the clock ends says so, live and afterwards', enough, async ()
 });
 
 test('a game is met in the middle of a shot', enough, async () => {
+  const page = await open('/', 'tournaments/');
   const id = await game(['breaker', 'thinker'], { game_ms: 600_000 }, (bot, turn) => (turn.turn === 1 ? bot.shoot(turn, hardBreak) : null));
   const { stored_ms: stored, events } = await until(async () => {
     const { turns: [first] } = await api(`/api/games/${id}`);
     return first && api(`/api/games/${id}/shots/1`);
   }, 'the break is stored');
-  await until(() => Date.now() > stored + 1500, 'the balls roll');
-  const page = await open(`/games/${id}`, `games/${id}`);
+  await until(() => Date.now() > stored + 1200, 'the balls roll');
+  await page.go(`#/games/${id}`, `games/${id}`);
   await page.until(() => document.querySelector('main').dataset.live === 'open' && window.poolhall.view.playback.playing, 'it plays');
   const { t, now } = await page.evaluate(() => ({ t: window.poolhall.view.playback.t, now: Date.now() }));
   const age = (now - stored) / 1000;
