@@ -45,7 +45,7 @@ export class AgentsView {
             const key = h('span', { class: 'key' });
             key.style.background = place >= 0 ? seriesColour(place) : 'transparent';
             return h('tr', {}, h('td', {}, key),
-              h('th', { scope: 'row' }, h('a', { href: `#/agents/${encodeURIComponent(agent.agent)}` }, agent.agent)),
+              h('th', { scope: 'row' }, h('a', { href: `#/agents/${encodeURIComponent(agent.agent)}`, title: agent.agent }, agent.agent)),
               [ratingText(agent), agent.games, agent.wins, agent.losses, agent.draws]
                 .map((value) => h('td', { class: 'num' }, value)),
               h('td', {}, agent.house ? h('span', { class: 'tag' }, 'house') : ''));

@@ -217,22 +217,36 @@ export const postForText = (path, body) => here.postForText(path, body);
  */
 export const watch = (path, onMessage, onState) => here.watch(path, onMessage, onState);
 
+/** What takes long is done seldom: it rests this many times as long. */
+const restShare = 9;
+
 /**
  * A pause between calls: the first at once, then no more often than this; the last is never lost.
  * @param {number} milliseconds
- * @param {() => void} action
+ * @param {() => Promise<void>} action
  */
 export function throttled(milliseconds, action) {
   let next = 0;
+  let isBusy = false;
+  let isAsked = false;
   /** @type {any} */
   let timer;
-  const run = () => {
+  const run = async () => {
     timer = undefined;
-    next = performance.now() + milliseconds;
-    action();
+    isBusy = true;
+    isAsked = false;
+    const began = performance.now();
+    await action();
+    const now = performance.now();
+    next = Math.max(began + milliseconds, now + restShare * (now - began));
+    isBusy = false;
+    if (isAsked) {
+      call();
+    }
   };
   const call = () => {
-    if (timer === undefined) {
+    isAsked = true;
+    if (timer === undefined && !isBusy) {
       timer = setTimeout(run, Math.max(0, next - performance.now()));
     }
   };

@@ -4,7 +4,8 @@
 
 import { svg } from './dom.js';
 
-const palette = ['#4fb98a', '#f2b705', '#6aa5ff', '#ff7a59', '#c58bff', '#5fd3d8', '#ff9ecb', '#a8c256'];
+/** Of the scheme's, style.css. */
+const seriesColours = 8;
 
 /** Characters; the whole name is in the tooltip. */
 const longestLabel = 20;
@@ -13,7 +14,7 @@ const longestLabel = 20;
  * A colour that stays with a name's place.
  * @param {number} index
  */
-export const seriesColour = (index) => palette[index % palette.length];
+export const seriesColour = (index) => `var(--series${index % seriesColours})`;
 
 /**
  * Round numbers from low to high.
@@ -68,6 +69,30 @@ export function intervalChart(rows, title) {
         svg('circle', { cx: x(row.value), cy: y, r: 5, fill: colour }),
       ];
     }).flat());
+}
+
+/**
+ * Where a sequential test stands between its bounds.
+ * @param {{log_likelihood_ratio: number, lower: number, upper: number, verdict: string, pairs: number}} test
+ */
+export function testGauge({ log_likelihood_ratio: ratio, lower, upper, verdict, pairs }) {
+  const [width, height, side, line] = [640, 62, 46, 26];
+  const low = Math.min(lower, ratio);
+  const high = Math.max(upper, ratio);
+  const x = (/** @type {number} */ v) => side + ((v - low) / (high - low)) * (width - 2 * side);
+  const title = `Log likelihood ratio ${ratio.toFixed(2)} after ${pairs} pairs`;
+  const bound = (/** @type {number} */ value, /** @type {string} */ name, /** @type {boolean} */ met) => [
+    svg('line', { class: 'axis', x1: x(value), x2: x(value), y1: line - 12, y2: line + 12 }),
+    svg('text', { class: met ? 'label' : 'tick', x: x(value), y: height - 8, 'text-anchor': 'middle' },
+      `${name} ${value.toFixed(2)}`),
+  ];
+  return svg('svg', { class: 'chart gauge', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': title },
+    svg('title', {}, title),
+    svg('line', { class: 'grid', x1: x(low), x2: x(high), y1: line, y2: line }),
+    svg('line', { class: 'axis', x1: x(0), x2: x(0), y1: line - 6, y2: line + 6 }),
+    svg('line', { class: 'bar', x1: x(0), x2: x(ratio), y1: line, y2: line, stroke: seriesColour(0) }),
+    svg('circle', { cx: x(ratio), cy: line, r: 6, fill: seriesColour(0) }),
+    bound(lower, 'H0', verdict === 'h0'), bound(upper, 'H1', verdict === 'h1'));
 }
 
 /**

@@ -70,17 +70,17 @@ export function fill(element, ...children) {
 
 /**
  * What has changed on the screen, under the hands of who uses it: the same link has the focus afterwards, and
- * what was scrolled sideways stays so.
+ * what was scrolled stays so.
  * @param {Element} element
  * @param {(Child | Child[])[]} children
  */
 export function refill(element, ...children) {
   const focused = document.activeElement;
   const href = element.contains(focused) ? focused?.getAttribute('href') : null;
-  const scrolled = [...element.querySelectorAll('.scroll')].map((e) => e.scrollLeft);
+  const scrolled = [...element.querySelectorAll('.scroll')].map((e) => [e.scrollLeft, e.scrollTop]);
   fill(element, ...children);
   element.querySelectorAll('.scroll').forEach((e, i) => {
-    e.scrollLeft = scrolled[i] ?? 0;
+    [e.scrollLeft, e.scrollTop] = scrolled[i] ?? [0, 0];
   });
   if (href) {
     const again = [...element.querySelectorAll('a')].find((a) => a.getAttribute('href') === href);

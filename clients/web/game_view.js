@@ -1,48 +1,20 @@
 // A game: the table, who plays, clocks, what was called, what was ruled, all shots; live while it
 // goes on. #/games/17/shots/3?t=1.25 opens that instant.
 
-import { colourOf } from './ball_art.js';
 import { getJson, postForText, watch } from './api.js';
 import { button, fill, h } from './dom.js';
+import { PlayersPanel, turnPanel } from './game_panels.js';
 import { Motion } from './motion.js';
 import { Playback } from './playback.js';
+import { ballsOf, sceneOf } from './scene.js';
+import { ShotList } from './shot_list.js';
 import { TableView } from './table_view.js';
 import { TransportBar } from './transport_bar.js';
-import { callWords, capital, clockText, endingWords, rulingWords, turnWords } from './words.js';
 
 const stillFrame = matchMedia('(prefers-reduced-motion: reduce)');
 /** Shots that wait to be shown live; beyond, the oldest are skipped. */
 const mostWaiting = 2;
 const frameTimesKept = 600;
-
-/**
- * The balls before a turn's first event.
- * @param {any} state
- */
-const ballsOf = (state) => state.balls
-  .filter((/** @type {any} */ b) => b.pocket === undefined && !b.off_table);
-
-/**
- * The ball that must be struck first in nine-ball.
- * @param {any} state
- */
-const lowestOf = (state) => Math.min(...ballsOf(state).map((/** @type {any} */ b) => b.id).filter((/** @type {number} */ id) => id > 0));
-
-/**
- * The scene of a shot as `poolhall simulate` takes it.
- * @param {any} game
- * @param {any} turn
- * @param {any} shot
- */
-export function sceneOf(game, turn, shot) {
-  const placed = turn.cue_ball;
-  const balls = ballsOf(turn.state_before)
-    .map((/** @type {any} */ b) => (b.id === 0 && placed ? { id: 0, ...placed } : { id: b.id, x: b.x, y: b.y }));
-  if (placed && !balls.some((/** @type {any} */ b) => b.id === 0)) {
-    balls.unshift({ id: 0, ...placed });
-  }
-  return { table: game.table, physics: game.physics, balls, shot };
-}
 
 export class GameView {
   /**
@@ -89,7 +61,7 @@ export class GameView {
     if (!this.game.over) {
       this.listen();
     }
-    this.ticker = setInterval(() => this.paintClocks(), 100);
+    this.ticker = setInterval(() => this.players?.paintClocks(), 100);
   }
 
   /** @returns {any[]} */
@@ -102,7 +74,8 @@ export class GameView {
     this.playback.stop();
     this.live?.close();
     clearInterval(this.ticker);
-    this.observer?.disconnect();
+    clearTimeout(this.remembering);
+    this.view?.unwatch();
   }
 
   build() {
@@ -115,9 +88,9 @@ export class GameView {
     this.canvas = canvas;
     this.bar = new TransportBar(this.playback, { onShot: (by) => this.goShot(by) });
     this.notice = h('p', { class: 'notice', role: 'status' });
-    this.players = [0, 1].map(() => h('div', { class: 'player' }));
+    this.players = new PlayersPanel((seat) => this.timeLeft(seat));
     this.ruling = h('div', { class: 'ruling' });
-    this.list = h('ol', { class: 'shots' });
+    this.list = new ShotList();
     const toggle = (/** @type {string} */ label, /** @type {'showGhost' | 'showPaths'} */ key) => {
       const box = /** @type {HTMLInputElement} */ (h('input', { type: 'checkbox' }));
       box.checked = this[key];
@@ -136,11 +109,10 @@ export class GameView {
           h('div', { class: 'options' }, toggle('Paths', 'showPaths'), toggle('Intended shot', 'showGhost'),
             h('a', { class: 'button', id: 'to-workbench', href: '#/workbench' }, 'Open in workbench'),
             this.liveButton), this.notice),
-        h('aside', {}, h('div', { class: 'players' }, this.players), this.ruling,
-          h('h2', {}, 'Turns'), this.list)));
+        h('aside', {}, this.players.element, this.ruling,
+          h('h2', {}, 'Turns'), this.list.element)));
     this.view = new TableView(canvas, game.board.table, game.board.physics.ball_radius);
-    this.observer = new ResizeObserver(() => this.view?.resize() && this.frame());
-    this.observer.observe(canvas);
+    this.view.watch(() => this.frame());
     this.paintList();
   }
 
@@ -158,32 +130,8 @@ export class GameView {
   }
 
   paintList() {
-    const { game } = this;
-    const items = game.turns.map((/** @type {any} */ turn) => {
-      const foul = (turn.ruling?.fouls ?? []).length > 0;
-      return h('li', {
-        class: `${foul ? 'foul' : ''} ${turn.turn === this.turn?.turn ? 'current' : ''}`,
-        'data-turn': turn.turn,
-      }, h('a', { href: `#/games/${this.id}/shots/${turn.turn}` },
-        h('span', { class: 'n' }, turn.turn),
-        h('span', { class: `seat seat${turn.by}` }, game.agents[turn.by]),
-        h('span', { class: 'what' }, turnWords(turn), foul ? ' (foul)' : '')));
-    });
-    fill(/** @type {HTMLElement} */ (this.list), items);
-    this.scrollToCurrent();
-  }
-
-  /** Within the list alone: the page stays where it is. */
-  scrollToCurrent() {
-    const item = this.list?.querySelector('.current');
-    if (this.list && item instanceof HTMLElement) {
-      const above = item.offsetTop - this.list.offsetTop;
-      const hidden = above < this.list.scrollTop
-        || above + item.offsetHeight > this.list.scrollTop + this.list.clientHeight;
-      if (hidden) {
-        this.list.scrollTop = above - this.list.clientHeight / 2;
-      }
-    }
+    this.list?.show(this.game);
+    this.list?.mark(this.turn?.turn);
   }
 
   /**
@@ -224,7 +172,7 @@ export class GameView {
     });
     this.playback.load(this.motion.duration, turn.events, t);
     this.bar?.show(turn.events);
-    this.paintTurn();
+    fill(/** @type {HTMLElement} */ (this.ruling), ...turnPanel(this.game, turn));
     this.paintPlayers();
     this.paintList();
     this.loadGhost();
@@ -260,31 +208,6 @@ export class GameView {
     }
   }
 
-  paintTurn() {
-    const { turn, game } = this;
-    const { intended: i, executed: e } = turn;
-    const rows = turn.action === 'shot' ? ['a', 'b', 'theta', 'phi', 'v'].map((key) =>
-      h('tr', {}, h('th', { scope: 'row' }, key), h('td', {}, i[key].toFixed(3)), h('td', {}, e[key].toFixed(3)))) : [];
-    fill(/** @type {HTMLElement} */ (this.ruling),
-      h('h2', {}, `Turn ${turn.turn}: ${game.agents[turn.by]}`),
-      turn.action === 'shot' ? h('p', { class: 'call' }, turn.state_before.kind === 'break' ? 'Break' : `Called: ${callWords(turn.call)}`)
-        : h('p', { class: 'call' }, capital(turnWords(turn))),
-      h('ul', { class: 'clauses' }, rulingWords(turn.ruling).map(({ text, kind }) => h('li', { class: kind }, text))),
-      this.resultLine(turn.state_after?.result),
-      rows.length > 0 && h('details', {}, h('summary', {}, 'Stroke'),
-        h('table', { class: 'numbers' }, h('tr', {}, h('td'), h('th', {}, 'intended'), h('th', {}, 'executed')), rows),
-        turn.moved && h('p', {}, 'Noise had made it impossible: the nearest possible shot was played.')));
-  }
-
-  /** @param {any} result */
-  resultLine(result) {
-    if (!result) {
-      return null;
-    }
-    const who = result.winner === null ? 'Nobody wins' : `${this.game.agents[result.winner]} wins`;
-    return h('p', { class: 'result' }, `${who}: ${endingWords(result.reason)}.`);
-  }
-
   /** The state that belongs to the instant on the screen. */
   get stateNow() {
     const ended = this.turn && this.playback.t >= this.playback.end;
@@ -292,76 +215,23 @@ export class GameView {
   }
 
   paintPlayers() {
-    const { game } = this;
-    const state = this.stateNow;
-    this.players?.forEach((element, seat) => {
-      const group = state.groups?.[seat];
-      const fouls = state.fouls_in_a_row?.[seat];
-      element.classList.toggle('to-move', state.to_move === seat && !state.result);
-      element.classList.toggle('winner', state.result?.winner === seat);
-      fill(element,
-        h('div', { class: 'name' }, h('span', { class: `seat seat${seat}`, title: game.agents[seat] }, game.agents[seat])),
-        h('div', { class: 'line' }, h('span', { class: 'clock' }, this.clockOf(seat)),
-          h('span', { class: 'score', title: 'games won in this match' }, game.match_score[seat])),
-        h('div', { class: 'line' }, this.standing(state, seat, group, fouls)),
-        h('div', { class: 'balls' }, this.ballsLeft(state, group)));
-    });
+    this.players?.paint(this.game, this.stateNow);
   }
 
   /**
-   * What a player has to do, or has done, in words.
-   * @param {any} state
+   * On a clock, ms.
    * @param {number} seat
-   * @param {string | undefined} group
-   * @param {number | undefined} fouls
    */
-  standing(state, seat, group, fouls) {
-    if (state.result) {
-      return state.result.winner === seat ? 'won' : state.result.winner === null ? 'drawn' : 'lost';
-    }
-    const aim = group ?? (this.game.rules === '8-ball' ? 'open table' : `on the ${lowestOf(state)}`);
-    return fouls ? `${fouls} foul${fouls > 1 ? 's' : ''} in a row` : aim;
-  }
-
-  /**
-   * @param {any} state
-   * @param {string | undefined} group
-   */
-  ballsLeft(state, group) {
-    if (!group) {
-      return [];
-    }
-    const own = (/** @type {number} */ id) => (group === 'solids' ? id > 0 && id < 8 : id > 8);
-    return state.balls.filter((/** @type {any} */ b) => own(b.id) && b.pocket === undefined && !b.off_table)
-      .map((/** @type {any} */ b) => {
-        const dot = h('span', { class: `dot ${b.id > 8 ? 'stripe' : ''}` }, b.id);
-        dot.style.setProperty('--ball', colourOf(b.id));
-        return dot;
-      });
-  }
-
-  /** @param {number} seat */
-  clockOf(seat) {
+  timeLeft(seat) {
     if (this.clock && this.isNewest) {
       const { left_ms, running, since } = this.clock;
-      const gone = running === seat ? performance.now() - since : 0;
-      return clockText(left_ms[seat] - gone);
+      return left_ms[seat] - (running === seat ? performance.now() - since : 0);
     }
-    const left = this.turn?.left_ms?.[seat] ?? this.game.clock_ms;
-    return clockText(left);
+    return this.turn?.left_ms?.[seat] ?? this.game.clock_ms;
   }
 
   get isNewest() {
     return this.turn === null || this.turn.turn === this.game.turns.at(-1)?.turn;
-  }
-
-  paintClocks() {
-    this.players?.forEach((element, seat) => {
-      const clock = element.querySelector('.clock');
-      if (clock) {
-        clock.textContent = this.clockOf(seat);
-      }
-    });
   }
 
   listen() {
@@ -393,6 +263,7 @@ export class GameView {
    * @param {any} message
    */
   async receiveSnapshot(message) {
+    const came = performance.now();
     const newest = message.last?.turn ?? 0;
     if (!message.live || newest !== (this.game.turns.at(-1)?.turn ?? 0)) {
       this.game = await getJson(`/api/games/${this.id}`, this.abort.signal).catch(() => this.game);
@@ -400,13 +271,19 @@ export class GameView {
       this.paintPlayers();
       this.root.dataset.over = String(this.game.over);
     }
-    if (this.following && message.last) {
+    if (!this.following) {
+      return;
+    }
+    const last = this.game.turns.at(-1)?.turn;
+    if (message.last) {
       this.waiting = [];
       // In the middle of a shot: from where it is by now.
-      const age = (message.time_ms - message.last.stored_ms) / 1000;
-      this.present(message.last, age, true);
-    } else if (this.following && message.state) {
+      const age = message.time_ms - message.last.stored_ms + performance.now() - came;
+      this.present(message.last, age / 1000, true);
+    } else if (message.state) {
       this.showState(message.state);
+    } else if (last !== undefined && last !== this.turn?.turn) {
+      await this.showTurn(last, -0.2, true);  // how it ended while nobody told
     }
   }
 
@@ -415,10 +292,7 @@ export class GameView {
     if (!this.game.turns.some((/** @type {any} */ t) => t.turn === turn.turn)) {
       const { state_before, state_after, events, ...head } = turn;
       this.game.turns.push(head);
-    }
-    if (turn.state_after.result) {
-      this.game.over = true;
-      this.root.dataset.over = 'true';
+      this.noteResult(state_after.result);
     }
     this.paintList();
     if (!this.following) {
@@ -429,6 +303,17 @@ export class GameView {
       this.nextWaiting();
     } else {
       this.playback.speed = 4;
+    }
+  }
+
+  /** @param {any} result of a turn that was told just now */
+  noteResult(result) {
+    if (result) {
+      this.game.over = true;
+      this.root.dataset.over = 'true';
+      if (result.winner !== null) {
+        this.game.match_score[result.winner] += 1;
+      }
     }
   }
 
@@ -488,9 +373,10 @@ export class GameView {
     this.remember();
   }
 
-  /** The address of what is on the screen. */
+  /** The address of what is on the screen; not once another one was asked for. */
   remember() {
-    if (!this.turn || this.following) {
+    const [, page, id] = location.hash.split(/[/?]/);
+    if (!this.turn || this.following || page !== 'games' || id !== String(this.id)) {
       return;
     }
     const { t, playing } = this.playback;

@@ -2,21 +2,20 @@
 // each size; balls and paths are drawn upon a copy.
 //
 //   const m = tableMargin(geometry);        // m, of everything around the nose lines
-//   paintGround(ctx, { table, geometry, scale, enter });
+//   paintGround(ctx, { table, geometry, scale, around, enter });
 
 /**
  * @typedef {import('./geometry.js').Point} Point
  * @typedef {{table: import('./geometry.js').Table, geometry: import('./geometry.js').Geometry,
- *   scale: number, enter: (ctx: CanvasRenderingContext2D) => void}} Setting
- *   `scale`: pixels a metre; `enter`: table coordinates, in metres, for what follows
+ *   scale: number, around: string, enter: (ctx: CanvasRenderingContext2D) => void}} Setting
+ *   `scale`: pixels a metre; `around`: the page's colour, seen at the table's round corners;
+ *   `enter`: table coordinates, in metres, for what follows
  */
 
 /** Of the wood around the cushions at least, m. */
 const rail = 0.07;
 const corner = 0.05;
 const leather = 0.013;
-/** The page's own, around the table's round corners. */
-const pageGround = '#101418';
 const cloth = { lamp: '#2a8a5e', middle: '#1c6d49', edge: '#114b32' };
 const cushion = { nose: '#2b8a5f', top: '#1a6443', back: '#0e3d29' };
 const wood = { light: '#8a5a36', middle: '#6d4328', dark: '#4b2c19' };
@@ -302,11 +301,11 @@ function paintSights(ctx, width, length, out) {
  * @param {Setting} setting
  */
 export function paintGround(ctx, setting) {
-  const { table, geometry, enter } = setting;
+  const { table, geometry, around, enter } = setting;
   const m = tableMargin(geometry);
   const k = geometry.cushionWidth;
   ctx.setTransform(1, 0, 0, 1, 0, 0);
-  ctx.fillStyle = pageGround;
+  ctx.fillStyle = around;
   ctx.fillRect(0, 0, ctx.canvas.width, ctx.canvas.height);
   enter(ctx);
   paintWood(ctx, table.width, table.length, m, k);

@@ -24,6 +24,7 @@ import { paintGround, tableMargin } from './table_ground.js';
 const fallTime = 0.22;
 const cueLength = 1.45;
 const backswing = 0.16;
+const lightScheme = matchMedia('(prefers-color-scheme: light)');
 /** Copied, not blended: a frame begins with a picture of the whole table. */
 const opaque = { alpha: false };
 
@@ -56,6 +57,7 @@ export class TableView {
     this.left = 0;
     this.top = 0;
     this.lies = true;
+    this.around = '';
     const found = /** @type {CanvasRenderingContext2D | null} */ (canvas.getContext('2d', opaque));
     if (!found) {
       throw new Error('this browser draws no canvas');
@@ -64,15 +66,35 @@ export class TableView {
     this.resize();
   }
 
-  /** Takes the room that the page gives; true if that has changed. */
+  /**
+   * Calls whenever the picture has to be drawn anew: in another size, in other colours.
+   * @param {() => void} onChange
+   */
+  watch(onChange) {
+    this.changed = () => this.resize() && onChange();
+    this.observer = new ResizeObserver(this.changed);
+    this.observer.observe(this.canvas);
+    lightScheme.addEventListener('change', this.changed);
+  }
+
+  unwatch() {
+    this.observer?.disconnect();
+    if (this.changed) {
+      lightScheme.removeEventListener('change', this.changed);
+    }
+  }
+
+  /** Takes the room and the ground that the page gives; true if they have changed. */
   resize() {
     const box = this.canvas.getBoundingClientRect();
     const density = Math.min(3, window.devicePixelRatio || 1);
     const width = Math.max(1, Math.round(box.width * density));
     const height = Math.max(1, Math.round(box.height * density));
-    if (this.canvas.width === width && this.canvas.height === height && this.art) {
+    const around = getComputedStyle(document.documentElement).backgroundColor;
+    if (this.canvas.width === width && this.canvas.height === height && this.around === around) {
       return false;
     }
+    this.around = around;
     this.canvas.width = width;
     this.canvas.height = height;
     this.place(width, height);
@@ -149,7 +171,7 @@ export class TableView {
     const ctx = /** @type {CanvasRenderingContext2D | null} */ (this.ground.getContext('2d', opaque));
     if (ctx) {
       paintGround(ctx, {
-        table: this.table, geometry: this.geometry, scale: this.scale, enter: (to) => this.enterTable(to),
+        table: this.table, geometry: this.geometry, scale: this.scale, around: this.around, enter: (to) => this.enterTable(to),
       });
     }
   }

@@ -14,11 +14,10 @@ export const liveGame = (game) => h('a', { class: 'live-game', href: `#/games/${
 
 /** @param {any} tournament */
 export function progressBar({ games_over, games_planned, games_running }) {
-  const all = games_planned ?? games_over + games_running;
+  const all = games_planned ? ` of ${games_planned}` : '';
   return h('div', { class: 'progress' },
-    h('progress', { max: all || 1, value: games_over, 'aria-label': 'Games played' }),
-    h('span', {}, `${games_over}${all ? ` of ${all}` : ''} games`,
-      games_running > 0 ? `, ${games_running} running` : ''));
+    games_planned && h('progress', { max: games_planned, value: games_over, 'aria-label': 'Games played' }),
+    h('span', {}, `${games_over}${all} games`, games_running > 0 ? `, ${games_running} running` : ''));
 }
 
 export class TournamentsView {

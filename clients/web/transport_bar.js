@@ -10,14 +10,6 @@ import { eventWords } from './words.js';
 
 /** @typedef {import('./playback.js').Playback} Playback */
 
-const markColours = {
-  cue_strike: '#ffd34d',
-  ball_collision: '#ffffff',
-  rail_collision: '#4fb98a',
-  pocketed: '#ff7a59',
-  transition: '#7d8794',
-};
-
 export class TransportBar {
   /**
    * @param {Playback} playback
@@ -70,7 +62,6 @@ export class TransportBar {
       const tall = event.type !== 'transition';
       return svg('rect', {
         x: x - 1, y: tall ? 0 : 5, width: 2, height: tall ? 10 : 5, class: `mark ${event.type}`,
-        fill: markColours[/** @type {keyof typeof markColours} */ (event.type)] ?? '#fff',
       });
     }));
     this.update();

@@ -59,6 +59,17 @@ const wordFor = (words, code) => words[code] ?? spaced(code);
 /** @param {string} reason */
 export const endingWords = (reason) => wordFor(endings, reason);
 
+/**
+ * Of a game that is over.
+ * @param {any} game
+ */
+export function resultWords({ agents, winner, reason, scored }) {
+  if (scored === false) {
+    return 'void: it does not count';
+  }
+  return `${winner === null || winner === undefined ? 'drawn' : `${agents[winner]} won`}, ${endingWords(reason)}`;
+}
+
 /** @param {string} pocket */
 export const pocketWords = (pocket) => `${spaced(pocket)} pocket`;
 

@@ -3,9 +3,9 @@
 
 import { getJson, postForText } from './api.js';
 import { button, fill, h } from './dom.js';
-import { sceneOf } from './game_view.js';
 import { Motion } from './motion.js';
 import { Playback } from './playback.js';
+import { sceneOf } from './scene.js';
 import { TableView } from './table_view.js';
 import { TransportBar } from './transport_bar.js';
 import { pocketWords } from './words.js';
@@ -89,7 +89,7 @@ export class WorkbenchView {
   close() {
     this.abort.abort();
     this.playback.stop();
-    this.observer?.disconnect();
+    this.view?.unwatch();
   }
 
   /** A position of a game: #/workbench?game=17&turn=3 */
@@ -129,15 +129,15 @@ export class WorkbenchView {
         h('aside', { class: 'bench' }, this.tray, this.strokePanel(), this.modelPanel(), this.jsonPanel())));
     this.placeTable();
     this.listenToPointer();
-    this.observer = new ResizeObserver(() => this.view?.resize() && this.frame());
-    this.observer.observe(this.canvas);
   }
 
   placeTable() {
     const { table, physics } = this.numbers;
     const canvas = /** @type {HTMLCanvasElement} */ (this.canvas);
     canvas.style.setProperty('--shape', String(table.length / table.width));
+    this.view?.unwatch();
     this.view = new TableView(canvas, table, physics.ball_radius);
+    this.view.watch(() => this.frame());
   }
 
   strokePanel() {
@@ -215,6 +215,7 @@ export class WorkbenchView {
   }
 
   takeJson() {
+    const former = this.scene;
     try {
       const scene = JSON.parse(this.json?.value ?? '');
       if (!Array.isArray(scene.balls) || typeof scene.table !== 'string') {
@@ -229,6 +230,7 @@ export class WorkbenchView {
       this.placeTable();
       this.lay();
     } catch (error) {
+      this.scene = former;
       this.say(`The scene cannot be used: ${error instanceof Error ? error.message : error}.`);
     }
   }

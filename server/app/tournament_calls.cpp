@@ -25,6 +25,7 @@ namespace {
 // Where a tournament is: at a server, or in a database file.
 struct Place {
   std::string server = "127.0.0.1:8080";
+  std::string ca_file{};
   std::string database;
   std::string token_file;
 };
@@ -67,6 +68,7 @@ int host_call(const Place& place, const std::string& target, const std::string& 
                   place.token_file + ": cannot be read, expected a file with the token");
   }
   return print_reply({.server = place.server,
+                      .ca_file = place.ca_file,
                       .method = "POST",
                       .target = target,
                       .token = token,
@@ -75,8 +77,12 @@ int host_call(const Place& place, const std::string& target, const std::string& 
 }
 
 void add_server_options(CLI::App& command, Place& place) {
-  command.add_option("--server", place.server, "The running server's page, HOST:PORT")
+  command
+      .add_option("--server", place.server,
+                  "The running server's page, HOST:PORT or https://HOST:PORT")
       ->capture_default_str();
+  command.add_option("--tls-ca", place.ca_file,
+                     "PEM file of certificates to believe instead of the system's; for https");
 }
 
 void add_host_options(CLI::App& command, Place& place) {
@@ -147,8 +153,9 @@ using OfStored = std::function<std::string(const ledger::StoredTournament&)>;
 int read_tournament(const Place& place, const std::string& id, const std::string& page,
                     const OfStored& text_of) {
   if (place.database.empty()) {
-    return print_reply(
-        {.server = place.server, .target = fmt::format("/api/tournaments/{}/{}", id, page)});
+    return print_reply({.server = place.server,
+                        .ca_file = place.ca_file,
+                        .target = fmt::format("/api/tournaments/{}/{}", id, page)});
   }
   return read_here(place, [&](storage::Reader& reader) -> storage::Expected<std::string> {
     const auto stored = ledger::stored_tournament(reader, id);
@@ -165,9 +172,10 @@ int read_tournament(const Place& place, const std::string& id, const std::string
 }
 
 int list_tournaments(const Place& place) {
-  return place.database.empty()
-             ? print_reply({.server = place.server, .target = "/api/tournaments.txt"})
-             : read_here(place, ledger::list_text);
+  return place.database.empty() ? print_reply({.server = place.server,
+                                               .ca_file = place.ca_file,
+                                               .target = "/api/tournaments.txt"})
+                                : read_here(place, ledger::list_text);
 }
 
 void add_list(CLI::App& parent, int& exit_code) {

@@ -81,16 +81,6 @@ void write_row(JsonWriter& out, const StandingsRow& row, const Standings& table,
   out.end_object().end_object();
 }
 
-void write_sprt(JsonWriter& out, const ratings::SprtState& state) {
-  const std::string_view verdict = state.verdict == ratings::SprtVerdict::h1   ? "h1"
-                                   : state.verdict == ratings::SprtVerdict::h0 ? "h0"
-                                                                               : "undecided";
-  out.key("sprt").begin_object().key("verdict").string(verdict);
-  out.key("log_likelihood_ratio").number(state.log_likelihood_ratio);
-  out.key("lower").number(state.lower).key("upper").number(state.upper);
-  out.key("pairs").integer(state.pairs).end_object();
-}
-
 void write_lots(JsonWriter& out, const std::vector<tournament::Lot>& lots, const Names& names) {
   out.key("lots").begin_array();
   for (const tournament::Lot& lot : lots) {
@@ -122,7 +112,7 @@ std::string standings_json(const std::string& id, const TournamentBook& book,
   }
   out.end_object();
   if (book.schedule().sprt) {
-    write_sprt(out, *book.schedule().sprt);
+    write_sprt(out.key("sprt"), *book.schedule().sprt);
   }
   if (!book.schedule().lots.empty()) {
     write_lots(out, book.schedule().lots, names);
@@ -175,6 +165,16 @@ std::string crosstable_json(const std::string& id, const Crosstable& cross, cons
 }
 
 }  // namespace
+
+void write_sprt(JsonWriter& out, const ratings::SprtState& state) {
+  const std::string_view verdict = state.verdict == ratings::SprtVerdict::h1   ? "h1"
+                                   : state.verdict == ratings::SprtVerdict::h0 ? "h0"
+                                                                               : "undecided";
+  out.begin_object().key("verdict").string(verdict);
+  out.key("log_likelihood_ratio").number(state.log_likelihood_ratio);
+  out.key("lower").number(state.lower).key("upper").number(state.upper);
+  out.key("pairs").integer(state.pairs).end_object();
+}
 
 std::optional<Table> table(std::string_view name) {
   if (name == "standings") {

@@ -7,6 +7,7 @@
 #include <string>
 #include <string_view>
 
+#include "protocol/json_writer.hpp"
 #include "server/ledger/tournament_book.hpp"
 
 namespace poolhall::ledger {
@@ -22,6 +23,9 @@ enum class TableForm : std::uint8_t { text, csv, json };
 // Ends with a line's end.
 [[nodiscard]] std::string table_text(const std::string& id, const TournamentBook& book, Table table,
                                      TableForm form);
+
+// How an SPRT stands, an object.
+void write_sprt(protocol::JsonWriter& out, const ratings::SprtState& state);
 
 // FIDE's TRF16; nothing unless it is a Swiss tournament.
 [[nodiscard]] std::optional<std::string> trf_text(const std::string& id,

@@ -23,7 +23,8 @@ constexpr std::uint64_t lots = 0x6c6f7473;  // a sequence of its own, not that o
 class Tree {
  public:
   std::size_t add(const BracketSource& one, const BracketSource& two) {
-    matches_.push_back({one, two, std::max(round_after(one), round_after(two)), false});
+    matches_.push_back(
+        {.one = one, .two = two, .round = std::max(round_after(one), round_after(two))});
     return matches_.size() - 1;
   }
 
@@ -38,7 +39,7 @@ class Tree {
   }
 
   std::vector<BracketMatch> take() { return std::move(matches_); }
-  [[nodiscard]] BracketMatch& last() { return matches_.back(); }
+  [[nodiscard]] BracketMatch& match(std::size_t number) { return matches_[number]; }
 
  private:
   [[nodiscard]] std::uint32_t round_after(const BracketSource& source) const {
@@ -110,9 +111,14 @@ std::vector<BracketMatch> double_elimination_tree(std::size_t entries) {
     }
     losers = tree.pair_up(both, played);
   }
+  for (const std::size_t match : played) {
+    tree.match(match).side = BracketSide::losers;
+  }
   const std::size_t final_match = tree.add(winners.front(), losers.front());
-  tree.add({Kind::winner, final_match}, {Kind::loser, final_match});
-  tree.last().is_reset = true;
+  const std::size_t reset = tree.add({Kind::winner, final_match}, {Kind::loser, final_match});
+  tree.match(final_match).side = BracketSide::final;
+  tree.match(reset).side = BracketSide::final;
+  tree.match(reset).is_reset = true;
   return tree.take();
 }
 
@@ -144,6 +150,7 @@ class Elimination {
       now_.rounds_drawn = std::max(now_.rounds_drawn, pairing.round + 1);
     }
     set_places();
+    set_bracket();
     return std::move(now_);
   }
 
@@ -249,6 +256,33 @@ class Elimination {
     for (std::size_t i = 0; i < entries; ++i) {
       now_.places[i] = static_cast<std::uint32_t>(std::count_if(
           reached.begin(), reached.end(), [&](std::uint32_t other) { return other > reached[i]; }));
+    }
+  }
+
+  // The second final only when it is known to be needed.
+  void set_bracket() {
+    for (std::size_t match = 0; match < tree_.size(); ++match) {
+      const Stand one = stand(tree_[match].one);
+      const Stand two = stand(tree_[match].two);
+      const Outcome& outcome = outcomes_[match];
+      const bool nobody = (one.is_known && !one.entry) || (two.is_known && !two.entry);
+      const bool is_needed =
+          one.is_known && two.is_known && !(outcome.loser.is_known && !outcome.loser.entry);
+      if (tree_[match].is_reset && !is_needed) {
+        continue;
+      }
+      now_.bracket.push_back({.round = tree_[match].round,
+                              .side = tree_[match].side,
+                              .one = one.entry,
+                              .two = two.entry,
+                              .winner = outcome.winner.entry,
+                              .is_played = !nobody,
+                              .pairings = {}});
+      for (const Pairing& pairing : now_.pairings) {
+        if (pairing.number / attempts == match) {
+          now_.bracket.back().pairings.push_back(pairing.number);
+        }
+      }
     }
   }
 

@@ -8,6 +8,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "server/tournament/format.hpp"
+
 namespace poolhall::tournament {
 
 struct BracketSource {
@@ -20,7 +22,8 @@ struct BracketMatch {
   BracketSource one;
   BracketSource two;
   std::uint32_t round = 0;  // after the rounds of the matches that it waits for
-  bool is_reset = false;    // played only when `one` of the match before, the final, lost it
+  BracketSide side = BracketSide::winners;
+  bool is_reset = false;  // played only when `one` of the match before, the final, lost it
 };
 
 // In an order in which each match comes after those that it waits for. The first seeds get the

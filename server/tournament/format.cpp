@@ -33,6 +33,12 @@ std::optional<FormatKind> format_kind(std::string_view name) {
   return physics::value_of(kinds, name);
 }
 
+std::string_view name(BracketSide side) {
+  return side == BracketSide::winners  ? "winners"
+         : side == BracketSide::losers ? "losers"
+                                       : "final";
+}
+
 double MatchResult::first_points() const {
   return std::accumulate(games.begin(), games.end(), 0.0,
                          [](double sum, const GameScore& game) { return sum + game.first; });

@@ -93,6 +93,20 @@ struct Lot {
   friend bool operator==(const Lot&, const Lot&) = default;
 };
 
+enum class BracketSide : std::uint8_t { winners, losers, final };
+[[nodiscard]] std::string_view name(BracketSide side);
+
+// A match of an elimination's tree, as far as it is known who plays it.
+struct BracketPlace {
+  std::uint32_t round = 0;
+  BracketSide side = BracketSide::winners;
+  std::optional<EntryId> one{};
+  std::optional<EntryId> two{};
+  std::optional<EntryId> winner{};
+  bool is_played = true;                // not: somebody has no opponent here
+  std::vector<std::uint32_t> pairings;  // several if it was level
+};
+
 struct Schedule {
   std::vector<Pairing> pairings;  // by number
   std::vector<RoundOff> off;      // of formats by rounds
@@ -102,6 +116,7 @@ struct Schedule {
   // The format's own order of the entries, less is better; empty: by points alone.
   std::vector<std::uint32_t> places;
   std::vector<Lot> lots;
+  std::vector<BracketPlace> bracket;           // of eliminations, in the order of the tree
   std::vector<ratings::Glicko2Rating> ladder;  // by entry
   std::optional<ratings::SprtState> sprt{};
   std::vector<SwissEntry> swiss;  // the rounds that are over, by entry

@@ -2,8 +2,10 @@
 //
 //   auto reply = http_call({.server = "127.0.0.1:8080", .target = "/api/tournaments"});
 //   if (reply && reply->status == 200) use(reply->body);
+//   auto other = http_call({.server = "https://pool.example", .ca_file = "host.pem", ...});
 #pragma once
 
+#include <chrono>
 #include <string>
 
 #include <tl/expected.hpp>
@@ -11,12 +13,14 @@
 namespace poolhall::web {
 
 struct HttpCall {
-  std::string server;          // HOST:PORT
+  std::string server;     // HOST:PORT, http://HOST[:PORT] or https://HOST[:PORT]
+  std::string ca_file{};  // PEM: whose certificates are believed; empty: those the system believes
   std::string method = "GET";  // or POST
   std::string target;
   std::string token{};  // goes out as Authorization: Bearer; empty: none
   std::string body{};
   std::string content_type = "application/json";
+  std::chrono::milliseconds patience{30'000};  // for the whole answer
 };
 
 struct HttpReply {
@@ -24,7 +28,7 @@ struct HttpReply {
   std::string body;
 };
 
-// The error is one line: what could not be done. A server that says nothing for 30 s is one.
+// The error is one line: what could not be done.
 [[nodiscard]] tl::expected<HttpReply, std::string> http_call(const HttpCall& call);
 
 }  // namespace poolhall::web

@@ -6,13 +6,11 @@
 #include <sys/socket.h>
 
 #include <fmt/format.h>
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/co_spawn.hpp>
 #include <boost/asio/detached.hpp>
 #include <boost/asio/executor_work_guard.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/steady_timer.hpp>
-#include <boost/asio/use_awaitable.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
 #include <boost/beast/http/parser.hpp>
 #include <boost/beast/http/read.hpp>
@@ -21,6 +19,7 @@
 #include <optional>
 #include <utility>
 
+#include "server/web/awaited.hpp"
 #include "server/web/http_head.hpp"
 #include "server/web/pages.hpp"
 #include "server/web/wire.hpp"
@@ -35,7 +34,6 @@ using asio::ip::tcp;
 
 namespace {
 
-constexpr auto awaited = asio::as_tuple(asio::use_awaitable);
 constexpr std::chrono::seconds patience{30};
 constexpr std::size_t connections = 4096;
 constexpr std::size_t connections_from_one = 2048;  // a whole lecture hall may share an address

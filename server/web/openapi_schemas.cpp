@@ -191,6 +191,17 @@ std::string_view openapi_schemas() {
   },
   "required": ["match", "over", "round", "agents", "games"]
 },
+"BracketPlace": {
+  "type": "object",
+  "properties": {
+    "round": {"type": "integer"}, "side": {"enum": ["winners", "losers", "final"]},
+    "played": {"type": "boolean", "description": "False: somebody has no opponent here"},
+    "agents": {"type": "array", "items": {"type": ["string", "null"]}, "minItems": 2, "maxItems": 2},
+    "winner": {"type": ["string", "null"]},
+    "matches": {"type": "array", "items": {"type": "integer"}}
+  },
+  "required": ["round", "side", "played", "agents", "winner", "matches"]
+},
 "TournamentPage": {
   "type": "object",
   "properties": {
@@ -207,6 +218,20 @@ std::string_view openapi_schemas() {
     "standings": {"type": "array", "items": {"$ref": "#/components/schemas/Standing"}},
     "break_advantage": {"$ref": "#/components/schemas/Estimate"},
     "endings": {"type": "object", "additionalProperties": {"type": "integer"}},
+    "rounds_drawn": {"type": ["integer", "null"]}, "rounds": {"type": ["integer", "null"]},
+    "sprt": {
+      "type": ["object", "null"],
+      "properties": {
+        "verdict": {"enum": ["undecided", "h0", "h1"]},
+        "log_likelihood_ratio": {"type": "number"}, "lower": {"type": "number"},
+        "upper": {"type": "number"}, "pairs": {"type": "integer"}
+      },
+      "required": ["verdict", "log_likelihood_ratio", "lower", "upper", "pairs"]
+    },
+    "bracket": {
+      "type": "array", "description": "Of eliminations",
+      "items": {"$ref": "#/components/schemas/BracketPlace"}
+    },
     "remarks": {"type": "array", "items": {"type": "string"}},
     "crosstable": {
       "type": "array",
@@ -226,7 +251,7 @@ std::string_view openapi_schemas() {
   "required": [
     "tournament", "wire_id", "title", "status", "created_ms", "games_over", "games_running",
     "games_planned", "entries", "tie_breaks", "standings", "break_advantage", "endings",
-    "remarks", "crosstable", "matches"
+    "rounds_drawn", "rounds", "sprt", "bracket", "remarks", "crosstable", "matches"
   ]
 },
 "TurnHead": {

@@ -1,5 +1,6 @@
 #include "server/web/site.hpp"
 
+#include <algorithm>
 #include <boost/asio/async_result.hpp>
 #include <boost/asio/post.hpp>
 #include <boost/asio/use_awaitable.hpp>
@@ -20,6 +21,9 @@ namespace {
 
 // A table that a thousand people look at is worked out as often as this, not a thousand times.
 constexpr std::chrono::milliseconds shared_for{500};
+// What takes long to make is shared for longer: a Swiss tournament of 100 is a second's work.
+constexpr int shared_share = 4;
+constexpr std::chrono::seconds shared_at_most{10};
 constexpr std::size_t most_kept = 256;
 constexpr std::size_t most_addresses = 4096;
 constexpr std::uint32_t burst_seconds = 2;
@@ -158,10 +162,12 @@ void Site::read_shared(const std::string& path, Then then) {
   if (kept.waiting.size() > 1) {
     return;
   }
-  read(path, [this, path](Page page) {
+  read(path, [this, path, began = now](Page page) {
     Kept& done = kept_[path];
+    const auto ended = steady_clock::now();
     done.page = page;
-    done.until = steady_clock::now() + shared_for;
+    done.until = ended + std::clamp<steady_clock::duration>(shared_share * (ended - began),
+                                                            shared_for, shared_at_most);
     for (const Then& next : std::exchange(done.waiting, {})) {
       next(page);
     }

@@ -143,12 +143,37 @@ void write_terms(JsonWriter& out, const Field& field) {
   out.key("table").string(settings.table).key("physics").string(settings.physics);
 }
 
-// How many games there will be, where the matches to come are known.
+// How many games there will be, where it is known how many matches are to come.
 std::optional<std::uint64_t> games_planned(const Field& field) {
-  if (!field.book || field.book->settings().format != "round_robin") {
+  if (!field.book) {
     return std::nullopt;
   }
-  return field.book->schedule().pairings.size() * field.book->settings().games_per_match;
+  const ledger::TournamentBook& book = *field.book;
+  const tournament::Schedule& schedule = book.schedule();
+  const tournament::FormatKind kind = book.format().kind;
+  const bool is_fixed = kind == tournament::FormatKind::round_robin ||
+                        kind == tournament::FormatKind::gauntlet || schedule.is_complete;
+  std::uint64_t matches = schedule.pairings.size();
+  if (!is_fixed && kind == tournament::FormatKind::swiss) {
+    const auto playing = std::count_if(book.field().begin(), book.field().end(),
+                                       [](const auto& span) { return !span.until; });
+    const std::uint32_t to_come =
+        schedule.rounds - std::min(schedule.rounds, schedule.rounds_drawn);
+    matches += to_come * (static_cast<std::uint64_t>(playing) / 2);
+  } else if (!is_fixed) {
+    return std::nullopt;
+  }
+  return matches * book.settings().games_per_match;
+}
+
+void write_optional(JsonWriter& out, std::string_view key,
+                    const std::optional<std::uint64_t>& value) {
+  out.key(key);
+  if (value) {
+    out.integer(*value);
+  } else {
+    out.null();
+  }
 }
 
 bool is_scored(const storage::GameRecord& game) {
@@ -164,12 +189,21 @@ void write_progress(JsonWriter& out, const Field& field) {
         std::count_if(games.begin(), games.end(), [](const auto& game) { return !game.over; });
   }
   out.key("games_over").integer(over).key("games_running").integer(running);
-  out.key("games_planned");
-  if (const auto planned = games_planned(field)) {
-    out.integer(*planned);
-  } else {
-    out.null();
+  write_optional(out, "games_planned", games_planned(field));
+}
+
+// Of formats that draw one round after the other, and how many there will be if that is known.
+void write_rounds(JsonWriter& out, const Field& field) {
+  std::optional<std::uint64_t> drawn;
+  std::optional<std::uint64_t> all;
+  if (field.book && field.book->schedule().rounds_drawn > 0) {
+    drawn = field.book->schedule().rounds_drawn;
   }
+  if (field.book && field.book->schedule().rounds > 0) {
+    all = field.book->schedule().rounds;
+  }
+  write_optional(out, "rounds_drawn", drawn);
+  write_optional(out, "rounds", all);
 }
 
 void write_matches(JsonWriter& out, const Field& field, const Names& names) {
@@ -223,6 +257,40 @@ void write_lines(JsonWriter& out, std::string_view text) {
   out.end_array();
 }
 
+void write_entry(JsonWriter& out, const std::optional<tournament::EntryId>& entry,
+                 const tournament::Names& entries) {
+  if (entry) {
+    out.string(entries.at(tournament::index(*entry)));
+  } else {
+    out.null();
+  }
+}
+
+// The tree of an elimination; its matches by their ids, for their games are told elsewhere.
+void write_bracket(JsonWriter& out, const Field& field) {
+  out.key("bracket").begin_array();
+  const std::vector<tournament::BracketPlace> none;
+  const tournament::Names& entries = field.book ? field.book->names() : tournament::Names{};
+  for (const auto& place : field.book ? field.book->schedule().bracket : none) {
+    out.begin_object().key("round").integer(place.round + 1);
+    out.key("side").string(tournament::name(place.side)).key("played").boolean(place.is_played);
+    out.key("agents").begin_array();
+    write_entry(out, place.one, entries);
+    write_entry(out, place.two, entries);
+    out.end_array().key("winner");
+    write_entry(out, place.winner, entries);
+    out.key("matches").begin_array();
+    for (const storage::MatchRecord& match : field.matches) {
+      if (match.pairing && std::find(place.pairings.begin(), place.pairings.end(),
+                                     *match.pairing) != place.pairings.end()) {
+        out.integer(protocol::number(match.id));
+      }
+    }
+    out.end_array().end_object();
+  }
+  out.end_array();
+}
+
 // The tables that `poolhall tournament` shows too.
 void write_tables(JsonWriter& out, const Field& field) {
   tournament::Standings table;
@@ -235,6 +303,12 @@ void write_tables(JsonWriter& out, const Field& field) {
   }
   write_standings(out, table, entries);
   write_crosstable(out, tournament::crosstable(entries.size(), games), table);
+  out.key("sprt");
+  if (field.book && field.book->schedule().sprt) {
+    ledger::write_sprt(out, *field.book->schedule().sprt);
+  } else {
+    out.null();
+  }
   out.key("remarks");
   write_lines(out, field.book ? ledger::remarks(*field.book) : std::string{});
 }
@@ -286,7 +360,9 @@ Page tournament_page(Reader& reader, std::string_view id, const Horizon& horizon
   write_terms(out, *field);
   write_progress(out, *field);
   write_entries(out, *field, *names);
+  write_rounds(out, *field);
   write_tables(out, *field);
+  write_bracket(out, *field);
   write_matches(out, *field, *names);
   out.end_object();
   return page_of(out);

@@ -1,12 +1,14 @@
 #include "server/web/wire.hpp"
 
-#include <boost/asio/as_tuple.hpp>
 #include <boost/asio/bind_executor.hpp>
 #include <boost/asio/co_spawn.hpp>
-#include <boost/asio/use_awaitable.hpp>
+#include <boost/asio/ssl/host_name_verification.hpp>
 #include <boost/beast/core/tcp_stream.hpp>
 #include <boost/beast/ssl.hpp>
 #include <optional>
+#include <utility>
+
+#include "server/web/awaited.hpp"
 
 namespace poolhall::web {
 
@@ -16,7 +18,6 @@ using asio::ip::tcp;
 
 namespace {
 
-constexpr auto awaited = asio::as_tuple(asio::use_awaitable);
 constexpr std::chrono::seconds handshake_patience{10};
 constexpr std::chrono::seconds farewell{2};
 constexpr std::size_t farewell_bytes = 1024 * 1024;
@@ -57,6 +58,19 @@ asio::awaitable<Wire::Error> Wire::shake_hands() {
   co_return failed;
 }
 
+asio::awaitable<Wire::Error> Wire::shake_hands_with(std::string host) {
+  if (!streams_->tls) {
+    co_return Error{};
+  }
+  expires_after(handshake_patience);
+  static_cast<void>(SSL_set_tlsext_host_name(streams_->tls->native_handle(), host.c_str()));
+  streams_->tls->set_verify_mode(asio::ssl::verify_peer);
+  streams_->tls->set_verify_callback(asio::ssl::host_name_verification(host));
+  const auto [failed] =
+      co_await streams_->tls->async_handshake(asio::ssl::stream_base::client, awaited);
+  co_return failed;
+}
+
 asio::awaitable<void> Wire::part() {
   expires_after(farewell);
   if (streams_->tls) {
@@ -75,7 +89,7 @@ asio::awaitable<void> Wire::part() {
   }
 }
 
-void Wire::expires_after(std::chrono::seconds time) {
+void Wire::expires_after(std::chrono::milliseconds time) {
   streams_->lowest().expires_after(time);
 }
 

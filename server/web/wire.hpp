@@ -1,5 +1,5 @@
-// A visitor's connection, plain or by TLS, as one stream: what reads requests and talks to
-// spectators is compiled once, which for Beast's templates is half a minute.
+// A connection, plain or by TLS, as one stream: what reads requests and talks to spectators is
+// compiled once, which for Beast's templates is half a minute.
 //
 //   Wire wire{std::move(socket), tls};                 // null: plain
 //   if (const auto [failed] = co_await wire.shake_hands(); failed) ...
@@ -18,6 +18,7 @@
 #include <chrono>
 #include <cstddef>
 #include <memory>
+#include <string>
 #include <utility>
 
 namespace poolhall::web {
@@ -38,11 +39,13 @@ class Wire {
   [[nodiscard]] executor_type get_executor();
   // Before anything else; nothing to do on a plain connection.
   [[nodiscard]] boost::asio::awaitable<Error> shake_hands();
+  // The same for who calls: the certificate must be good, as `tls` has it, and for this host.
+  [[nodiscard]] boost::asio::awaitable<Error> shake_hands_with(std::string host);
   // So that what was said last is not lost with what the other side still sends.
   [[nodiscard]] boost::asio::awaitable<void> part();
 
   // Of what begins from now on; it then fails with beast::error::timeout.
-  void expires_after(std::chrono::seconds time);
+  void expires_after(std::chrono::milliseconds time);
   void expires_never();
   // What a visitor that does not read costs the system.
   void limit_send_buffer(int bytes);

@@ -66,7 +66,7 @@ export class Chromium {
     });
   }
 
-  async newPage({ width = 1280, height = 860, density = 1, touch = false, reducedMotion = false } = {}) {
+  async newPage({ width = 1280, height = 860, density = 1, touch = false, reducedMotion = false, scheme = 'dark' } = {}) {
     const { targetId } = await this.send('Target.createTarget', { url: 'about:blank' });
     const { sessionId } = await this.send('Target.attachToTarget', { targetId, flatten: true });
     const page = new Page(this, sessionId, targetId);
@@ -76,9 +76,7 @@ export class Chromium {
     }
     await page.send('Emulation.setDeviceMetricsOverride',
       { width, height, deviceScaleFactor: density, mobile: touch });
-    await page.send('Emulation.setEmulatedMedia', {
-      features: [{ name: 'prefers-reduced-motion', value: reducedMotion ? 'reduce' : 'no-preference' }],
-    });
+    await page.prefer({ reducedMotion, scheme });
     return page;
   }
 
@@ -123,6 +121,14 @@ class Page {
   async open(url) {
     await this.send('Page.navigate', { url });
     await this.until(() => document.readyState === 'complete', 'the page is loaded');
+  }
+
+  /** What its user asks of pages. */
+  prefer({ reducedMotion = false, scheme = 'dark' }) {
+    return this.send('Emulation.setEmulatedMedia', {
+      features: [{ name: 'prefers-reduced-motion', value: reducedMotion ? 'reduce' : 'no-preference' },
+        { name: 'prefers-color-scheme', value: scheme }],
+    });
   }
 
   /** Runs a function in the page with values as its arguments. */

@@ -179,6 +179,24 @@ test("the workbench's result is what poolhall simulate prints", enough, () => wi
   }
 }));
 
+test('a scene that cannot be used leaves the one on the table', enough, () => withPage({}, async (page) => {
+  await page.open(at('/workbench'));
+  await page.ready('workbench/');
+  const before = await page.evaluate(() => window.poolhall.view.sceneText);
+  for (const text of ['{', '{"table": "nowhere", "physics": "olympiad", "balls": []}', '{"table": "wpa9", "physics": {}, "balls": []}']) {
+    const { scene, said } = await page.evaluate((json) => {
+      const { view } = window.poolhall;
+      view.json.value = json;
+      view.takeJson();
+      return { scene: view.sceneText, said: view.status.textContent };
+    }, text);
+    assert.equal(scene, before);
+    assert.match(said, /cannot be used/);
+  }
+  await page.evaluate(() => window.poolhall.view.strike());
+  assert.match(await page.evaluate(() => window.poolhall.view.status.textContent), /events in/);
+}));
+
 test('a ball is dragged, the cue is aimed, noise gives a cloud', enough, () => withPage({}, async (page) => {
   await page.open(at('/workbench'));
   await page.ready('workbench/');
@@ -229,7 +247,8 @@ test('HTML in names and reasons is shown as text', enough, () => withPage({}, as
       rating: 'rated', estimate: { elo: 1, margin: 2 }, group: 0 };
     const answer = { tournament: text, title: text, status: 'running', created_ms: 0, rules: text, format: text,
       games_over: 1, games_running: 0, games_planned: 1, entries: [entry], standings: [row], crosstable: [[null]],
-      break_advantage: null, endings: { [text]: 1 },
+      break_advantage: null, endings: { [text]: 1 }, rounds_drawn: 1, rounds: 1, sprt: null, remarks: [text],
+      bracket: [{ round: 1, side: 'winners', played: true, agents: [text, text], winner: text, matches: [1] }],
       matches: [{ match: 1, over: true, agents: [text, text], games: [{ game: 1, number: 0, agents: [text, text],
         over: true, winner: 0, reason: text }] }] };
     window.fetch = async () => new Response(JSON.stringify({ ...answer, tournaments: [answer] }));

@@ -5,7 +5,7 @@ import { execFileSync } from 'node:child_process';
 import { join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { Chromium } from './chromium.mjs';
-import { program, root, startServer, temporaryDirectory } from './program.mjs';
+import { program, root, startServer, temporaryDirectory, until } from './program.mjs';
 import { problems } from './schema.mjs';
 
 const enough = { timeout: 100_000 };
@@ -122,48 +122,70 @@ test('what is not there is said, with a way back', enough, async () => {
   await page.close();
 });
 
-test('all text has enough contrast to its ground', enough, async () => tour(server.url, await allViews(), async (page, hash) => {
-  const poor = await page.evaluate(() => {
-    const parsed = (text) => (text.match(/[\d.]+/g) ?? []).map(Number);
-    const over = ([r, g, b, a = 1], ground) => [r, g, b].map((c, i) => c * a + ground[i] * (1 - a));
-    const groundOf = (element) => {
-      const layers = [];
-      for (let e = element; e; e = e.parentElement) {
-        const style = getComputedStyle(e);
-        if (style.backgroundImage !== 'none') {
-          return null;  // painted: judged by eye
-        }
-        layers.push(parsed(style.backgroundColor));
+/** In the page: texts that are hard to read on their ground, with the ratio of their lightness. */
+function poorTexts() {
+  const parsed = (text) => (text.match(/[\d.]+/g) ?? []).map(Number);
+  const over = ([r, g, b, a = 1], ground) => [r, g, b].map((c, i) => c * a + ground[i] * (1 - a));
+  const groundOf = (element) => {
+    const layers = [];
+    for (let e = element; e; e = e.parentElement) {
+      const style = getComputedStyle(e);
+      if (style.backgroundImage !== 'none') {
+        return null;  // painted: judged by eye
       }
-      return layers.reverse().reduce((ground, layer) => over(layer, ground), [255, 255, 255]);
-    };
-    const light = (rgb) => rgb.map((c) => c / 255).map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4))
-      .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
-    const found = [];
-    for (const element of document.querySelectorAll('body *')) {
-      const own = [...element.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim());
-      const box = element.getBoundingClientRect();
-      if (!own || box.width === 0 || element.closest('.dot, noscript, option')) {
-        continue;
-      }
-      const style = getComputedStyle(element);
-      const ground = groundOf(element);
-      if (!ground) {
-        continue;
-      }
-      const colour = over(parsed(element instanceof SVGElement ? style.fill : style.color), ground);
-      const [a, b] = [light(colour), light(ground)].sort((x, y) => y - x);
-      const ratio = (a + 0.05) / (b + 0.05);
-      const size = parseFloat(style.fontSize);
-      const large = size >= 24 || (size >= 18.66 && Number(style.fontWeight) >= 700);
-      if (ratio < (large ? 3 : 4.5)) {
-        found.push(`${element.tagName}.${element.className}: "${element.textContent.slice(0, 30)}" ${ratio.toFixed(2)}`);
-      }
+      layers.push(parsed(style.backgroundColor));
     }
-    return found;
+    return layers.reverse().reduce((ground, layer) => over(layer, ground), [255, 255, 255]);
+  };
+  const light = (rgb) => rgb.map((c) => c / 255).map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4))
+    .reduce((sum, c, i) => sum + c * [0.2126, 0.7152, 0.0722][i], 0);
+  const found = [];
+  for (const element of document.querySelectorAll('body *')) {
+    const own = [...element.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim());
+    const box = element.getBoundingClientRect();
+    if (!own || box.width === 0 || element.closest('.dot, noscript, option')) {
+      continue;
+    }
+    const style = getComputedStyle(element);
+    const ground = groundOf(element);
+    if (!ground) {
+      continue;
+    }
+    const colour = over(parsed(element instanceof SVGElement ? style.fill : style.color), ground);
+    const [a, b] = [light(colour), light(ground)].sort((x, y) => y - x);
+    const ratio = (a + 0.05) / (b + 0.05);
+    const size = parseFloat(style.fontSize);
+    const large = size >= 24 || (size >= 18.66 && Number(style.fontWeight) >= 700);
+    if (ratio < (large ? 3 : 4.5)) {
+      found.push(`${element.tagName}.${element.className}: "${element.textContent.slice(0, 30)}" ${ratio.toFixed(2)}`);
+    }
+  }
+  return found;
+}
+
+for (const scheme of ['dark', 'light']) {
+  test(`all text has enough contrast to its ground, ${scheme}`, enough, async () => tour(server.url, await allViews(),
+    async (page, hash) => assert.deepEqual(await page.evaluate(poorTexts), [], hash), { scheme }));
+}
+
+test('the colour scheme is the one that the browser asks for, also while the page is open', enough, async () => {
+  const [, , [hash, key]] = await allViews();
+  await tour(server.url, [[hash, key]], async (page) => {
+    const colours = () => page.evaluate(() => {
+      const { canvas } = window.poolhall.view;
+      const [corner] = [canvas.getContext('2d').getImageData(0, 0, 1, 1).data];
+      const page = getComputedStyle(document.documentElement).backgroundColor;
+      return { page, corner: `rgb(${corner[0]}, ${corner[1]}, ${corner[2]})` };
+    });
+    const dark = await colours();
+    assert.equal(dark.corner, dark.page, 'the table lies on the page');
+    await page.prefer({ scheme: 'light' });
+    await until(async () => {
+      const light = await colours();
+      return light.page !== dark.page && light.corner === light.page;
+    }, 'both have become light');
   });
-  assert.deepEqual(poor, [], hash);
-}));
+});
 
 test('every control has a name, is reached by Tab and shows that it is', enough, async () => tour(server.url, await allViews(), async (page, hash) => {
   const nameless = await page.evaluate(() => [...document.querySelectorAll('button, a, select, input, textarea, canvas, progress')]

@@ -1,15 +1,20 @@
 // Agents by TLS: the same protocol and the same limits behind a handshake.
 #include <gtest/gtest.h>
 
+#include <boost/asio/io_context.hpp>
+#include <boost/asio/ip/tcp.hpp>
 #include <csignal>
 #include <fstream>
+#include <string>
 
 #include "certificate.hpp"
 #include "clients/cpp/client.hpp"
 #include "http_client.hpp"
 #include "scripted_play.hpp"
 #include "server/net/tls.hpp"
+#include "server/web/http_call.hpp"
 #include "test_server.hpp"
+#include "tests/support/run_command.hpp"
 #include "tests/support/temporary_directory.hpp"
 
 namespace poolhall::net_tests {
@@ -224,6 +229,58 @@ TEST_F(Https, CarriesStreams) {
   // A lobby's snapshot is a frame of text; it holds no line's end, so bytes are looked at.
   while (spectator.rest().find("\"type\":\"lobby\"") == std::string::npos) {
     ASSERT_TRUE(spectator.receive());
+  }
+}
+
+// As the commands call it that ask a running server.
+TEST_F(Https, IsBelievedOnlyWithItsCertificateAndName) {
+  const auto call = [this](const std::string& host, const std::string& ca_file) {
+    return web::http_call({.server = "https://" + host + ":" + std::to_string(https()),
+                           .ca_file = ca_file,
+                           .target = "/healthz"});
+  };
+  const Certificate other = make_certificate(directory_.path(), "other");
+  for (const char* host : {"127.0.0.1", "localhost"}) {
+    const auto reply = call(host, certificate_.file);
+    ASSERT_TRUE(reply) << reply.error();
+    EXPECT_EQ(reply->status, 200);
+  }
+  EXPECT_FALSE(call("127.0.0.1", ""));
+  EXPECT_FALSE(call("127.0.0.1", other.file));
+  EXPECT_FALSE(call("127.1", certificate_.file)) << "the same machine by a name of no certificate";
+  const auto no_file = call("127.0.0.1", "no-such.pem");
+  ASSERT_FALSE(no_file);
+  EXPECT_NE(no_file.error().find("no-such.pem"), std::string::npos) << no_file.error();
+}
+
+TEST_F(Https, AnswersTheProgramsCommands) {
+  const std::string command =
+      std::string(POOLHALL_PROGRAM) +
+      " tournament list --server https://127.0.0.1:" + std::to_string(https());
+  const test_support::Ran listed =
+      test_support::run_command(command + " --tls-ca " + certificate_.file);
+  EXPECT_EQ(listed.exit_code, 0) << listed.err;
+  EXPECT_EQ(listed.out, "No tournaments.\n");
+  const test_support::Ran refused = test_support::run_command(command);
+  EXPECT_EQ(refused.exit_code, 1);
+  EXPECT_NE(refused.err.find("https://127.0.0.1"), std::string::npos) << refused.err;
+}
+
+TEST(HttpCall, GivesUpOnAServerThatDoesNotAnswer) {
+  boost::asio::io_context io;
+  boost::asio::ip::tcp::acceptor silent(io, {boost::asio::ip::make_address("127.0.0.1"), 0});
+  const auto reply =
+      web::http_call({.server = "127.0.0.1:" + std::to_string(silent.local_endpoint().port()),
+                      .target = "/healthz",
+                      .patience = milliseconds{30}});
+  EXPECT_FALSE(reply);
+}
+
+TEST(HttpCall, NamesTheAddressThatIsNone) {
+  for (const char* wrong : {"", "example", "https://", "https://example/x", "127.0.0.1"}) {
+    const auto reply = web::http_call({.server = wrong, .target = "/healthz"});
+    ASSERT_FALSE(reply) << wrong;
+    EXPECT_NE(reply.error().find("expected HOST:PORT"), std::string::npos) << reply.error();
   }
 }
 

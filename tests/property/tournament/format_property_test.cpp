@@ -273,6 +273,35 @@ TEST(EliminationProperty, OneLossPutsOutOfASingleAndTwoOutOfADoubleElimination) 
   }
 }
 
+TEST(EliminationProperty, TheBracketHasEachMatchOnceWithWhoGoesOnFromIt) {
+  for (const FormatKind kind : {FormatKind::single_elimination, FormatKind::double_elimination}) {
+    for (std::size_t entries = 2; entries <= 17; ++entries) {
+      Play play(kind, entries, entries);
+      do {
+        std::map<std::uint32_t, const BracketPlace*> places;
+        for (const BracketPlace& place : play.now().bracket) {
+          for (const std::uint32_t number : place.pairings) {
+            EXPECT_TRUE(places.emplace(number, &place).second);
+            EXPECT_TRUE(place.is_played);
+          }
+        }
+        for (const Pairing& pairing : play.now().pairings) {
+          ASSERT_TRUE(places.contains(pairing.number));
+          const BracketPlace& place = *places[pairing.number];
+          EXPECT_EQ(std::set({place.one, place.two}),
+                    std::set({std::optional(pairing.first), std::optional(pairing.second)}));
+          EXPECT_EQ(place.round, pairing.round);
+        }
+      } while (play.step());
+      const BracketPlace& last = play.now().bracket.back();
+      EXPECT_EQ(last.side,
+                kind == FormatKind::single_elimination ? BracketSide::winners : BracketSide::final);
+      ASSERT_TRUE(last.winner);
+      EXPECT_EQ(play.now().places[index(*last.winner)], 0U) << name(kind) << ' ' << entries;
+    }
+  }
+}
+
 TEST(EliminationProperty, TheFirstSeedsHaveTheByesAndMeetLast) {
   for (std::size_t entries = 2; entries <= 64; ++entries) {
     const auto tree = single_elimination_tree(entries);
