@@ -83,7 +83,7 @@ Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
 
 Arena::~Arena() = default;
 
-storage::Expected<void> Arena::restore(storage::Reader& reader) {
+storage::Expected<void> Arena::restore(storage::Reader& reader, StoredTournaments tournaments) {
   auto counters = reader.counters();
   auto agents = reader.agents();
   auto matches = reader.unfinished_matches();
@@ -98,7 +98,7 @@ storage::Expected<void> Arena::restore(storage::Reader& reader) {
   for (storage::AgentRecord& agent : *agents) {
     book_.add(std::move(agent));
   }
-  if (auto restored = tournaments_.restore(reader); !restored) {
+  if (auto restored = tournaments_.restore(reader, tournaments); !restored) {
     return restored;
   }
   for (const storage::MatchRecord& match : *matches) {
