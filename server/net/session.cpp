@@ -266,9 +266,12 @@ void Session::greet(const protocol::RequestId& id, const protocol::Hello& hello)
 
 void Session::take_lag(const std::optional<protocol::RequestId>& id, const protocol::Lag& lag,
                        SteadyTime read_at) {
-  static_cast<void>(lag_.answered(static_cast<std::uint64_t>(lag.t), read_at));
+  const bool measured = lag_.answered(static_cast<std::uint64_t>(lag.t), read_at);
   if (id) {
     reply(*id, protocol::EmptyReply{});
+  }
+  if (measured) {
+    probe_lag();
   }
 }
 

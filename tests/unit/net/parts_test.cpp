@@ -7,8 +7,8 @@
 #include "server/net/deadline_queue.hpp"
 #include "server/net/lag_meter.hpp"
 #include "server/net/server.hpp"
-#include "server/web/token_bucket.hpp"
 #include "server/net/tokens.hpp"
+#include "server/web/token_bucket.hpp"
 
 namespace poolhall::net {
 namespace {
@@ -59,6 +59,21 @@ TEST(LagMeter, TakesTheLeastOfTheRecentRoundTrips) {
     EXPECT_TRUE(meter.answered(t, start + 40ms));
   }
   EXPECT_EQ(meter.lag(), 40ms);
+}
+
+// What a client does first after its login may keep it from answering.
+TEST(LagMeter, WantsTheFirstProbesOneRightAfterTheOtherAndThenOneInTwoSeconds) {
+  LagMeter meter;
+  auto now = steady_clock::now();
+  for (const auto trip : {90ms, 20ms, 21ms, 20ms}) {
+    EXPECT_TRUE(meter.wants_probe(now));
+    const auto t = meter.probe(now);
+    EXPECT_FALSE(meter.wants_probe(now + 1s));
+    EXPECT_TRUE(meter.answered(t, now += trip));
+  }
+  EXPECT_EQ(meter.lag(), 20ms);
+  EXPECT_FALSE(meter.wants_probe(now + 1s));
+  EXPECT_TRUE(meter.wants_probe(now + 2s));
 }
 
 TEST(LagMeter, CountsAnAnswerOnceAndOnlyToItsOwnProbe) {
