@@ -106,7 +106,8 @@ class Arena final : public Lobby {
                                 const protocol::Request& request) const override;
   void handle(const Asker& asker, storage::AgentId agent, protocol::Request request,
               SteadyTime read_at) override;
-  void ended(Session& session) override;
+  void leaves(const Session& session) override;
+  void ended(const Session& session) override;
 
  private:
   enum class Stage : std::uint8_t { running, stopping, told };
