@@ -83,7 +83,7 @@ Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
 
 Arena::~Arena() = default;
 
-storage::Expected<void> Arena::restore(storage::Reader& reader) {
+storage::Expected<void> Arena::restore(storage::Reader& reader, StoredTournaments tournaments) {
   auto counters = reader.counters();
   auto agents = reader.agents();
   auto matches = reader.unfinished_matches();
@@ -98,7 +98,7 @@ storage::Expected<void> Arena::restore(storage::Reader& reader) {
   for (storage::AgentRecord& agent : *agents) {
     book_.add(std::move(agent));
   }
-  if (auto restored = tournaments_.restore(reader); !restored) {
+  if (auto restored = tournaments_.restore(reader, tournaments); !restored) {
     return restored;
   }
   for (const storage::MatchRecord& match : *matches) {
@@ -156,13 +156,17 @@ void Arena::accept(Channel channel, std::function<void()> gone) {
   }
 }
 
-void Arena::ended(Session& session) {
+void Arena::leaves(const Session& session) {
   if (const auto agent = session.agent()) {
     Agent* known = book_.find(*agent);
     if (known != nullptr && known->session.lock().get() == &session) {
       known->session.reset();
     }
   }
+}
+
+void Arena::ended(const Session& session) {
+  leaves(session);
   sessions_.erase(number(session.connection().id()));
 }
 
@@ -460,7 +464,7 @@ ArenaFigures Arena::figures() const {
   figures.connections = sessions_.size();
   figures.agents_here = static_cast<std::size_t>(
       std::count_if(sessions_.begin(), sessions_.end(),
-                    [](const auto& entry) { return entry.second->agent().has_value(); }));
+                    [](const auto& entry) { return entry.second->is_present(); }));
   figures.agents_known = book_.size();
   figures.games = games_.size();
   figures.matches = matches_.size();

@@ -2,7 +2,7 @@
 // network thread.
 //
 //   Arena arena{io, workers, writer, archive, settings};
-//   if (auto restored = arena.restore(*reader); !restored) die(restored.error());
+//   if (auto restored = arena.restore(*reader, taken_up); !restored) die(restored.error());
 //   arena.accept(std::move(socket), on_gone);
 //   arena.begin();              // games that were going on, go on
 //   arena.stop([&] { io.stop(); });
@@ -59,7 +59,8 @@ class Arena final : public Lobby {
   ~Arena() override;
 
   // Takes up what the database has, before anything else.
-  [[nodiscard]] storage::Expected<void> restore(storage::Reader& reader);
+  [[nodiscard]] storage::Expected<void> restore(storage::Reader& reader,
+                                                StoredTournaments tournaments);
   // Restored games go on; house bots may start.
   void begin(const HouseBots::Settings& bots);
   // A new connection; `gone` is called when its socket is closed.
@@ -105,7 +106,8 @@ class Arena final : public Lobby {
                                 const protocol::Request& request) const override;
   void handle(const Asker& asker, storage::AgentId agent, protocol::Request request,
               SteadyTime read_at) override;
-  void ended(Session& session) override;
+  void leaves(const Session& session) override;
+  void ended(const Session& session) override;
 
  private:
   enum class Stage : std::uint8_t { running, stopping, told };

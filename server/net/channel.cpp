@@ -74,8 +74,11 @@ Channel::State state_of(const boost::system::error_code& error) {
   if (!error) {
     return Channel::State::done;
   }
+  if (error == asio::error::eof) {
+    return Channel::State::at_end;
+  }
   const bool later = error == asio::error::would_block || error == asio::error::try_again;
-  return later ? Channel::State::again : Channel::State::ended;
+  return later ? Channel::State::again : Channel::State::broken;
 }
 
 }  // namespace
@@ -124,13 +127,16 @@ Channel::Result Channel::read_tls(std::span<char> buffer) {
   if (returned == 1) {
     return {State::done, got};
   }
+  if (SSL_get_error(ssl_.get(), returned) == SSL_ERROR_ZERO_RETURN) {
+    return {State::at_end, 0};  // the peer has said so: an end without a word may be another's work
+  }
   switch (state_after(returned)) {
     case State::needs_input:
       return {State::again, 0};
     case State::needs_output:
       return {State::needs_output, 0};
     default:
-      return {State::ended, 0};
+      return {State::broken, 0};
   }
 }
 
@@ -164,7 +170,7 @@ Channel::State Channel::state_after(int returned) const {
     case SSL_ERROR_WANT_WRITE:
       return State::needs_output;
     default:
-      return State::ended;
+      return State::broken;
   }
 }
 

@@ -24,7 +24,8 @@ class Channel {
     again,         // the socket has, or takes, nothing more now
     needs_input,   // of a write: TLS must read first
     needs_output,  // of a read: TLS must write first
-    ended,         // by the peer, or broken
+    at_end,        // of a read: the peer sends no more
+    broken,
   };
   struct Result {
     State state = State::done;

@@ -34,6 +34,7 @@ constexpr std::chrono::seconds linger{2};
 constexpr std::chrono::seconds longest_probe_pause{150};
 // What any connection may leave unread, however much all leave together.
 constexpr std::size_t fair_share = 64 * 1024;
+constexpr const char* ended = "the connection has ended";
 
 }  // namespace
 
@@ -102,13 +103,17 @@ void Connection::close(Line last, std::string why) {
   count_queued(last->size());
   out_.push_back(std::move(last));
   tell_closed(std::move(why));
-  linger_deadline_ =
-      context_.deadlines.at(std::chrono::steady_clock::now() + linger, [weak = weak_from_this()] {
+  end_within(linger);
+  schedule_flush();
+}
+
+void Connection::end_within(std::chrono::milliseconds time) {
+  end_deadline_ =
+      context_.deadlines.at(std::chrono::steady_clock::now() + time, [weak = weak_from_this()] {
         if (const auto self = weak.lock()) {
-          self->close_socket();
+          self->abort("its last lines were not ready, or not read, in time");
         }
       });
-  schedule_flush();
 }
 
 void Connection::abort(std::string why) {
@@ -138,24 +143,23 @@ void Connection::read_arrived() {
 }
 
 asio::awaitable<void> Connection::read_loop(std::shared_ptr<Connection> self) {
-  while (channel_.socket().is_open()) {
+  while (channel_.socket().is_open() && !input_over_) {
     if (channel_.has_unread()) {
       co_await asio::post(channel_.socket().get_executor(), asio::use_awaitable);
     } else {
       const auto what = awaits_room_ ? tcp::socket::wait_write : tcp::socket::wait_read;
       const auto [error] = co_await channel_.socket().async_wait(what, awaited);
       if (error) {
-        break;
+        abort(ended);
       }
     }
-    if (!channel_.socket().is_open() || !read_once()) {
-      break;
+    if (channel_.socket().is_open()) {
+      read_once();
     }
-    if (is_ahead_of_its_pace()) {
+    if (channel_.socket().is_open() && is_ahead_of_its_pace()) {
       co_await keep_pace();
     }
   }
-  abort("the connection has ended");
   static_cast<void>(self);
 }
 
@@ -181,22 +185,36 @@ std::chrono::nanoseconds Connection::time_for(std::size_t bytes) const {
   return std::chrono::nanoseconds{std::llround(1e9 * seconds)};
 }
 
-// False at the end of the stream. One read a turn, so that nobody's flood keeps others waiting.
-bool Connection::read_once() {
+// One read a turn, so that nobody's flood keeps others waiting.
+void Connection::read_once() {
   const Channel::Result got =
       meter::metered(meter::Area::receiving, [this] { return channel_.read(context_.scratch); });
   awaits_room_ = got.state == Channel::State::needs_output;
   if (std::exchange(awaits_input_, false)) {
     schedule_flush();
   }
-  if (got.state == Channel::State::ended) {
-    return false;
-  }
   pay_for(got.bytes);
-  if (got.state == Channel::State::done && state_ == State::open) {
+  if (got.state == Channel::State::broken) {
+    abort(ended);
+  } else if (got.state == Channel::State::at_end) {
+    end_input();
+  } else if (got.state == Channel::State::done && state_ == State::open) {
     take({context_.scratch.data(), got.bytes}, std::chrono::steady_clock::now());
   }
-  return true;  // what a closing connection still sends is read and forgotten
+  // What a closing connection still sends is read and forgotten.
+}
+
+// Who sends no more may still read: what it has asked for in whole lines is answered.
+void Connection::end_input() {
+  input_over_ = true;
+  line_deadline_.cancel();
+  if (state_ == State::open) {
+    end_within(context_.last_answers);
+    if (const auto handler = handler_.lock()) {
+      handler->on_input_over();
+    }
+  }
+  schedule_flush();
 }
 
 void Connection::take(std::string_view bytes, SteadyTime read_at) {
@@ -323,7 +341,7 @@ bool Connection::write_some() {
     const Channel::Result sent = meter::metered(meter::Area::sending, [&] {
       return channel_.write({buffers.data(), count});
     });
-    if (sent.state == Channel::State::ended) {
+    if (sent.state == Channel::State::broken) {
       abort("the connection is broken");
       return false;
     }
@@ -360,8 +378,16 @@ void Connection::drop_unsent() {
 // Ends the sending half; the rest of what the peer sends is read until it ends too, for a socket
 // closed with bytes unread resets the connection and takes the last line with it.
 void Connection::finish_sending() {
-  if (state_ == State::closing && channel_.socket().is_open()) {
+  if (!channel_.socket().is_open()) {
+    return;
+  }
+  const auto handler = handler_.lock();
+  const bool is_awaited = state_ == State::open && handler && handler->owes_answers();
+  if (state_ == State::closing || (input_over_ && !is_awaited)) {
     channel_.finish();
+  }
+  if (input_over_ && !is_awaited) {
+    abort(ended);
   }
 }
 
@@ -383,7 +409,7 @@ void Connection::close_socket() {
   }
   state_ = State::closed;
   line_deadline_.cancel();
-  linger_deadline_.cancel();
+  end_deadline_.cancel();
   delivery_check_.cancel();
   channel_.close();
   out_.clear();

@@ -11,6 +11,7 @@
 #pragma once
 
 #include <boost/asio/awaitable.hpp>
+#include <chrono>
 #include <cstdint>
 #include <deque>
 #include <functional>
@@ -38,6 +39,8 @@ using Line = std::shared_ptr<const std::string>;
 struct ConnectionContext {
   const protocol::Limits& limits;
   DeadlineQueue& deadlines;
+  // How long a connection whose input is over may wait for answers to what was asked.
+  std::chrono::milliseconds last_answers{10'000};
   // Of all connections; theirs too, for the last of them may outlive the rest.
   std::shared_ptr<std::size_t> queued_bytes = std::make_shared<std::size_t>(0);
   std::vector<char> scratch = std::vector<char>(64 * 1024);
@@ -52,7 +55,10 @@ class Connection : public std::enable_shared_from_this<Connection> {
     virtual void on_line(std::string_view line, SteadyTime read_at) = 0;
     virtual void on_line_too_long() = 0;
     virtual void on_line_too_slow() = 0;
-    virtual void on_output_unread() = 0;               // may close with a last line
+    virtual void on_output_unread() = 0;  // may close with a last line
+    virtual void on_input_over() = 0;     // no line comes any more
+    // What keeps a connection open, for a while, whose input is over.
+    [[nodiscard]] virtual bool owes_answers() const = 0;
     virtual void on_closed(std::string_view why) = 0;  // once, never from within send or close
   };
 
@@ -84,7 +90,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
 
   boost::asio::awaitable<void> read_loop(std::shared_ptr<Connection> self);
   boost::asio::awaitable<void> write_loop(std::shared_ptr<Connection> self);
-  [[nodiscard]] bool read_once();
+  void read_once();
   // Until it has sent no more than it may have.
   [[nodiscard]] bool is_ahead_of_its_pace() const;
   boost::asio::awaitable<void> keep_pace();
@@ -95,6 +101,8 @@ class Connection : public std::enable_shared_from_this<Connection> {
   void count_unqueued(std::size_t bytes);
   void take(std::string_view bytes, SteadyTime read_at);
   void watch_line();
+  void end_input();
+  void end_within(std::chrono::milliseconds time);
   void schedule_flush();
   void watch_delivery();
   void check_delivery();
@@ -115,7 +123,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::weak_ptr<Handler> handler_;
   protocol::LineSplitter splitter_;
   Deadline line_deadline_;
-  Deadline linger_deadline_;
+  Deadline end_deadline_;
   Deadline delivery_check_;
   std::deque<Line> out_;
   std::size_t out_offset_ = 0;  // bytes of out_.front() that the socket has taken
@@ -123,6 +131,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::shared_ptr<std::size_t> queued_in_all_;
   SteadyTime paid_until_{};  // what has been read is within the rate from then on
   State state_ = State::open;
+  bool input_over_ = false;  // the peer has closed its sending half
   bool flush_pending_ = false;
   bool writing_ = false;       // write_loop runs
   bool awaits_input_ = false;  // TLS cannot write before it has read

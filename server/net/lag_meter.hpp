@@ -1,5 +1,6 @@
 // The lag of one connection: the least of the last round trips of the server's own probes. A
-// client that never answers a probe gets no credit.
+// client that never answers a probe gets no credit. An answer that comes late measures the client,
+// not the network: so the first few probes follow each other at once, and a late answer the next.
 //
 //   std::uint64_t t = meter.probe(now);     // send lag {t}
 //   meter.answered(t, now);                 // lag {t} came back
@@ -20,9 +21,9 @@ class LagMeter {
   using Time = std::chrono::steady_clock::time_point;
   using Micros = std::chrono::microseconds;
 
-  // True when the last probe is old enough for another.
   [[nodiscard]] bool wants_probe(Time now) const {
-    return !sent_at_ || now - *sent_at_ >= std::chrono::seconds{2};
+    const bool knows_too_little = known_ < first_probes && !waiting_;
+    return !sent_at_ || knows_too_little || now - *sent_at_ >= std::chrono::seconds{2};
   }
 
   // The value to send; the one before it, if still unanswered, counts no more.
@@ -52,6 +53,8 @@ class LagMeter {
   }
 
  private:
+  static constexpr std::size_t first_probes = 4;
+
   std::optional<Time> sent_at_{};
   bool waiting_ = false;
   std::uint64_t number_ = 0;

@@ -32,6 +32,10 @@ using protocol::GameId;
 using protocol::MatchId;
 using storage::TournamentStatus;
 
+// taken_up: tournaments in the database that ran go on, and those that are over are history;
+// left_alone: each is the caller's, who may order any match again.
+enum class StoredTournaments : std::uint8_t { left_alone, taken_up };
+
 // The terms under which the games of a match are played.
 struct GameTerms {
   rules::RuleSet rules = rules::RuleSet::eight_ball;

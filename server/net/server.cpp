@@ -268,7 +268,7 @@ tl::expected<void, std::string> Server::Impl::open_database() {
   if (!reader) {
     return tl::unexpected(reader.error().reason);
   }
-  if (auto restored = arena_->restore(**reader); !restored) {
+  if (auto restored = arena_->restore(**reader, options_.stored_tournaments); !restored) {
     return tl::unexpected(restored.error().reason);
   }
   return {};

@@ -21,9 +21,6 @@
 
 namespace poolhall::net {
 
-// taken_up: tournaments in the database that ran go on; left_alone: they are the caller's.
-enum class StoredTournaments : std::uint8_t { left_alone, taken_up };
-
 enum class Signals : std::uint8_t { handled, left_alone };  // left alone: SIGTERM is the caller's
 
 struct Endpoint {

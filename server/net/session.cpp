@@ -54,13 +54,13 @@ std::string encoded(const protocol::RequestId& id, const Reply& answer) {
 
 void Asker::reply(const Reply& answer) const {
   if (const auto alive = session.lock()) {
-    alive->reply(id, answer);
+    alive->answer(id, answer);
   }
 }
 
 void Asker::refuse(const Error& error) const {
   if (const auto alive = session.lock()) {
-    alive->refuse(id, error);
+    alive->answer(id, error);
   }
 }
 
@@ -84,6 +84,16 @@ void Session::begin() {
 
 void Session::push(const Notification& notification) {
   send(encoded(notification, ++seq_), nullptr);
+}
+
+void Session::answer(const protocol::RequestId& id, const Reply& result) {
+  --owed_;
+  reply(id, result);
+}
+
+void Session::answer(const protocol::RequestId& id, const Error& error) {
+  --owed_;
+  refuse(id, error);
 }
 
 void Session::reply(const protocol::RequestId& id, const Reply& answer) {
@@ -122,7 +132,7 @@ void Session::close_with(const Notification& last, std::string_view why) {
   connection_->close(line_of(protocol::encode_notification(last, ++seq_)), std::string{why});
 }
 
-void Session::admitted(Agent& agent, const protocol::LoginReply& answer) {
+void Session::admitted(Agent& agent, const protocol::LoginReply& login) {
   login_deadline_.cancel();
   stage_ = Stage::in;
   agent_ = agent.id();
@@ -130,13 +140,13 @@ void Session::admitted(Agent& agent, const protocol::LoginReply& answer) {
   spdlog::info("agent {} ({}) is in, connection {} from {}, client {}", agent.record.name,
                storage::number(agent.id()), number(connection_->id()), connection_->peer(),
                client_.empty() ? "unnamed" : client_);
-  reply(login_id_, answer);
+  answer(login_id_, login);
   probe_lag();
 }
 
 void Session::not_admitted(const Error& error) {
   stage_ = Stage::greeted;
-  refuse(login_id_, error);
+  answer(login_id_, error);
 }
 
 void Session::resume() {
@@ -146,6 +156,9 @@ void Session::resume() {
     if (connection_->open()) {
       on_line(line, now);
     }
+  }
+  if (input_over_) {
+    lobby_.leaves(*this);  // it logged in and was gone already
   }
 }
 
@@ -216,6 +229,7 @@ void Session::take(protocol::Incoming incoming, SteadyTime read_at) {
                                     lobby_.time_ms(std::chrono::steady_clock::now())});
       return;
     default:
+      ++owed_;
       lobby_.handle({weak_from_this(), id}, *agent_, std::move(incoming.request), read_at);
   }
 }
@@ -238,9 +252,11 @@ void Session::take_before_login(protocol::RequestId id, const protocol::Request&
   login_id_ = std::move(id);
   if (const auto* login = std::get_if<protocol::Login>(&request)) {
     stage_ = Stage::logging_in;
+    ++owed_;
     lobby_.admit(shared_from_this(), *login);
   } else if (const auto* enroll = std::get_if<protocol::Register>(&request)) {
     stage_ = Stage::logging_in;
+    ++owed_;
     lobby_.enroll(shared_from_this(), *enroll);
   } else {
     refuse(login_id_, {ErrorCode::not_logged_in, "/method",
@@ -266,9 +282,12 @@ void Session::greet(const protocol::RequestId& id, const protocol::Hello& hello)
 
 void Session::take_lag(const std::optional<protocol::RequestId>& id, const protocol::Lag& lag,
                        SteadyTime read_at) {
-  static_cast<void>(lag_.answered(static_cast<std::uint64_t>(lag.t), read_at));
+  const bool measured = lag_.answered(static_cast<std::uint64_t>(lag.t), read_at);
   if (id) {
     reply(*id, protocol::EmptyReply{});
+  }
+  if (measured) {
+    probe_lag();
   }
 }
 
@@ -301,6 +320,11 @@ void Session::on_output_unread() {
          fmt::format("output was left unread: more than {} bytes by this connection, or the most "
                      "where all together leave more than {}",
                      lobby_.limits().output_queue_bytes, lobby_.limits().output_bytes_in_all)});
+}
+
+void Session::on_input_over() {
+  input_over_ = true;
+  lobby_.leaves(*this);
 }
 
 void Session::on_closed(std::string_view why) {

@@ -53,7 +53,9 @@ class Lobby {
                                         const protocol::Request& request) const = 0;
   virtual void handle(const Asker& asker, storage::AgentId agent, protocol::Request request,
                       SteadyTime read_at) = 0;
-  virtual void ended(Session& session) = 0;
+  // Its agent is away: it may be gone, and gets at most the answers that it is owed.
+  virtual void leaves(const Session& session) = 0;
+  virtual void ended(const Session& session) = 0;
 };
 
 class Session : public Connection::Handler, public std::enable_shared_from_this<Session> {
@@ -64,15 +66,16 @@ class Session : public Connection::Handler, public std::enable_shared_from_this<
   void begin();
 
   void push(const Notification& notification);
-  void reply(const protocol::RequestId& id, const Reply& reply);
-  void refuse(const protocol::RequestId& id, const protocol::Error& error);
+  // The answer to a request that the Lobby got.
+  void answer(const protocol::RequestId& id, const Reply& result);
+  void answer(const protocol::RequestId& id, const protocol::Error& error);
   // Sends the reason and ends.
   void close(const protocol::Error& reason);
   // Sends a last notification and ends.
   void close_with(const Notification& last, std::string_view why);
 
   // The answers of Lobby::enroll and admit. `after` pushes what the agent must know.
-  void admitted(Agent& agent, const protocol::LoginReply& reply);
+  void admitted(Agent& agent, const protocol::LoginReply& login);
   void not_admitted(const protocol::Error& error);
   // Takes up the lines that came while the login was under way.
   void resume();
@@ -84,6 +87,8 @@ class Session : public Connection::Handler, public std::enable_shared_from_this<
 
   [[nodiscard]] const Connection& connection() const { return *connection_; }
   [[nodiscard]] std::optional<storage::AgentId> agent() const { return agent_; }
+  // Its agent sends and hears: not only what it asked for before it closed its sending half.
+  [[nodiscard]] bool is_present() const { return agent_ && !input_over_; }
   [[nodiscard]] protocol::EventDetail detail() const { return detail_; }
   // How long the events of a shot may be, for the line that they stand in.
   [[nodiscard]] std::size_t event_bytes() const;
@@ -92,11 +97,15 @@ class Session : public Connection::Handler, public std::enable_shared_from_this<
   void on_line_too_long() override;
   void on_line_too_slow() override;
   void on_output_unread() override;
+  void on_input_over() override;
+  [[nodiscard]] bool owes_answers() const override { return owed_ > 0; }
   void on_closed(std::string_view why) override;
 
  private:
   enum class Stage : std::uint8_t { silent, greeted, logging_in, in };
 
+  void reply(const protocol::RequestId& id, const Reply& reply);
+  void refuse(const protocol::RequestId& id, const protocol::Error& error);
   void take(protocol::Incoming incoming, SteadyTime read_at);
   void take_before_login(protocol::RequestId id, const protocol::Request& request);
   void greet(const protocol::RequestId& id, const protocol::Hello& hello);
@@ -118,6 +127,8 @@ class Session : public Connection::Handler, public std::enable_shared_from_this<
   std::vector<std::string> held_;  // lines that came while the login was under way
   std::uint64_t seq_ = 0;
   std::uint32_t bad_lines_ = 0;
+  std::uint32_t owed_ = 0;  // answers that the Lobby will give
+  bool input_over_ = false;
   web::TokenBucket bucket_;
   web::TokenBucket refusals_;  // for coming too fast
   LagMeter lag_;

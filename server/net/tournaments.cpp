@@ -45,29 +45,43 @@ Tournaments::Tournaments(GameServices& services, Matches& matches, Untold& untol
       stand_in_(std::move(outside.stand_in)),
       forfeit_games_(std::move(outside.forfeit_games)) {}
 
-storage::Expected<void> Tournaments::restore(storage::Reader& reader) {
+storage::Expected<void> Tournaments::restore(storage::Reader& reader, StoredTournaments which) {
   const auto records = reader.tournaments();
   if (!records) {
     return tl::unexpected(records.error());
   }
   for (const storage::TournamentRecord& record : *records) {
-    if (auto restored = restore_one(reader, record); !restored) {
+    Tournament& tournament = keep(record);
+    if (auto restored = restore_entries(reader, tournament); !restored) {
+      return restored;
+    }
+    // Nobody orders a match of history again: a start reads no more of it than its name.
+    if (which == StoredTournaments::taken_up && has_ended(record.status)) {
+      continue;
+    }
+    if (auto restored = restore_results(reader, tournament); !restored) {
       return restored;
     }
   }
   return {};
 }
 
-storage::Expected<void> Tournaments::restore_one(storage::Reader& reader,
-                                                 const storage::TournamentRecord& record) {
-  Tournament& tournament = keep(record);
-  const auto entries = reader.entries(record.id);
-  const auto matches = reader.matches_of(record.id);
-  if (!entries || !matches) {
-    return tl::unexpected(entries ? matches.error() : entries.error());
+storage::Expected<void> Tournaments::restore_entries(storage::Reader& reader,
+                                                     Tournament& tournament) {
+  auto entries = reader.entries(tournament.record.id);
+  if (!entries) {
+    return tl::unexpected(entries.error());
   }
-  for (const storage::EntryRecord& entry : *entries) {
-    tournament.entered.push_back(entry);
+  tournament.entered = std::move(*entries);
+  return {};
+}
+
+storage::Expected<void> Tournaments::restore_results(storage::Reader& reader,
+                                                     Tournament& tournament) {
+  const std::string& id = tournament.record.id;
+  const auto matches = reader.matches_of(id);
+  if (!matches) {
+    return tl::unexpected(matches.error());
   }
   for (const storage::MatchRecord& match : *matches) {
     if (!match.over || !match.pairing) {
@@ -77,7 +91,7 @@ storage::Expected<void> Tournaments::restore_one(storage::Reader& reader,
     if (!games) {
       return tl::unexpected(games.error());
     }
-    MatchOutcome outcome{record.id, *match.pairing, match.id, {}};
+    MatchOutcome outcome{id, *match.pairing, match.id, {}};
     for (const storage::GameRecord& game : *games) {
       if (const auto scored = ledger::scored_game(match, game)) {
         outcome.games.push_back(*scored);

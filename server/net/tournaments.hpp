@@ -20,6 +20,10 @@
 
 namespace poolhall::net {
 
+[[nodiscard]] constexpr bool has_ended(TournamentStatus status) {
+  return status == TournamentStatus::finished || status == TournamentStatus::aborted;
+}
+
 class Tournaments final : public MatchHost {
  public:
   struct Outside {
@@ -36,7 +40,7 @@ class Tournaments final : public MatchHost {
               Outside outside);
 
   // At the start, before anything else.
-  [[nodiscard]] storage::Expected<void> restore(storage::Reader& reader);
+  [[nodiscard]] storage::Expected<void> restore(storage::Reader& reader, StoredTournaments which);
 
   // MatchHost.
   TournamentCard open_tournament(const TournamentCard& card) override;
@@ -88,8 +92,10 @@ class Tournaments final : public MatchHost {
   using Awaited = std::vector<TournamentEntry>;
   using OrderKey = std::pair<std::string, std::uint32_t>;
 
-  [[nodiscard]] storage::Expected<void> restore_one(storage::Reader& reader,
-                                                    const storage::TournamentRecord& record);
+  [[nodiscard]] static storage::Expected<void> restore_entries(storage::Reader& reader,
+                                                               Tournament& tournament);
+  [[nodiscard]] static storage::Expected<void> restore_results(storage::Reader& reader,
+                                                               Tournament& tournament);
   Tournament& keep(const storage::TournamentRecord& record);
   [[nodiscard]] Tournament* find(const Asker& asker, protocol::TournamentId id);
   // Entries (tournament_entries.cpp).

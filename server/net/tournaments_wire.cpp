@@ -17,10 +17,6 @@ namespace {
 
 constexpr std::size_t listing_bytes = 160;  // without names
 
-bool has_ended(TournamentStatus status) {
-  return status == TournamentStatus::finished || status == TournamentStatus::aborted;
-}
-
 protocol::TournamentStatus wire_status(TournamentStatus status) {
   switch (status) {
     case TournamentStatus::open:

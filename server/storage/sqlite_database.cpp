@@ -232,11 +232,14 @@ Expected<std::optional<MatchRecord>> SqliteDatabase::match_requested(std::string
 
 Expected<std::vector<GameRecord>> SqliteDatabase::unacknowledged_by(AgentId agent,
                                                                     std::size_t most) {
+  // Each half has its index; of an OR of both SQLite makes a walk through all games.
   return all(select(game_columns,
-                    "games WHERE over=1 AND ((first_agent=?1 AND first_acknowledged=0) OR "
-                    "(second_agent=?1 AND second_acknowledged=0)) ORDER BY id DESC LIMIT ?2"),
-             &Columns::game, number(agent), static_cast<std::int64_t>(most))
-      .map(reversed<GameRecord>);
+                    "games WHERE id IN ("
+                    "SELECT id FROM games WHERE over=1 AND first_agent=?1 AND first_acknowledged=0 "
+                    "UNION ALL "
+                    "SELECT id FROM games WHERE over=1 AND second_agent=?1 AND "
+                    "second_acknowledged=0 ORDER BY id DESC LIMIT ?2) ORDER BY id"),
+             &Columns::game, number(agent), static_cast<std::int64_t>(most));
 }
 
 Expected<std::vector<MatchRecord>> SqliteDatabase::untold_matches(AgentId agent, std::size_t most) {

@@ -45,6 +45,14 @@ WireClient::~WireClient() {
   close();
 }
 
+void WireClient::end_input() {
+  if (tls_) {
+    static_cast<void>(SSL_shutdown(tls_->ssl.get()));
+  } else {
+    ::shutdown(socket_, SHUT_WR);
+  }
+}
+
 void WireClient::close() {
   if (socket_ >= 0) {
     ::close(std::exchange(socket_, -1));

@@ -42,6 +42,8 @@ class WireClient {
   // More bytes into rest(); false at the end of the stream.
   [[nodiscard]] bool receive();
   [[nodiscard]] int descriptor() const { return socket_; }
+  // Says that no more will be sent, and can still hear.
+  void end_input();
   void close();
   // All bytes that have come so far, and those of them that are no line yet.
   [[nodiscard]] const std::string& heard() const { return heard_; }

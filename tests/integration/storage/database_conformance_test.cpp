@@ -185,6 +185,21 @@ TEST_P(DatabaseConformance, lists_a_finished_game_for_each_agent_until_it_acknow
   EXPECT_EQ(database_->unfinished_games().value().size(), 1U);
 }
 
+TEST_P(DatabaseConformance, lists_the_latest_of_many_finished_games_whichever_seat_the_agent_had) {
+  std::vector<GameRecord> games{sample_game(1, 0), sample_game(2, 1), sample_game(3, 2)};
+  std::swap(games[2].agents[0], games[2].agents[1]);
+  in_transaction([&] { return database_->add_game(games[2]); });
+  for (GameRecord& game : games) {
+    game.over = true;
+    game.result = rules::GameResult{rules::Seat::first, rules::EndReason::conceded};
+    in_transaction([&] { return database_->update_game(game); });
+  }
+  for (const AgentId agent : {AgentId{1}, AgentId{2}}) {
+    EXPECT_EQ(database_->unacknowledged_by(agent, 9).value(), games);
+    EXPECT_THAT(database_->unacknowledged_by(agent, 2).value(), ElementsAre(games[1], games[2]));
+  }
+}
+
 TEST_P(DatabaseConformance, lists_results_of_scored_games_as_they_ended) {
   EXPECT_THAT(database_->results().value(), IsEmpty());
   GameRecord last = sample_game(1, 0);

@@ -2,6 +2,7 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sqlite3.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -25,6 +26,34 @@ StorageError error_of(const std::filesystem::path& file) {
   EXPECT_FALSE(opened);
   return opened ? StorageError{} : opened.error();
 }
+
+// Counts the rows that statements stepped over because no index led them past; of all connections
+// that are opened while it lives.
+class RowsScanned {
+ public:
+  RowsScanned() {
+    count_ = 0;
+    sqlite3_auto_extension(entry());
+  }
+  ~RowsScanned() { sqlite3_cancel_auto_extension(entry()); }
+  RowsScanned(const RowsScanned&) = delete;
+  RowsScanned& operator=(const RowsScanned&) = delete;
+
+  [[nodiscard]] static int take() { return std::exchange(count_, 0); }
+
+ private:
+  static int add(unsigned, void*, void* statement, void*) {
+    count_ += sqlite3_stmt_status(static_cast<sqlite3_stmt*>(statement),
+                                  SQLITE_STMTSTATUS_FULLSCAN_STEP, 1);
+    return 0;
+  }
+  static int watch(sqlite3* connection, const char**, const void*) {
+    return sqlite3_trace_v2(connection, SQLITE_TRACE_PROFILE, add, nullptr);
+  }
+  static void (*entry())() { return reinterpret_cast<void (*)()>(watch); }
+
+  static inline int count_ = 0;
+};
 
 TEST(SqliteDatabase, says_that_the_directory_is_missing) {
   TemporaryDirectory directory;
@@ -111,6 +140,34 @@ TEST(SqliteDatabase, reads_beside_the_owner_what_is_committed) {
   EXPECT_EQ((*reader)->turn(GameId{1}, 1).value(), std::nullopt);
   ASSERT_TRUE(owner->commit());
   EXPECT_EQ((*reader)->turn(GameId{1}, 1).value(), sample_turn(1, 1));
+}
+
+// Else a start of the server and the logins after it would take the longer, the more was played.
+TEST(SqliteDatabase, finds_what_goes_on_and_what_is_untold_without_walking_through_what_is_over) {
+  TemporaryDirectory directory;
+  auto owner = open_sqlite(directory / "test.db").value();
+  add_samples(*owner);
+  ASSERT_TRUE(owner->begin());
+  for (std::uint32_t number = 2; number < 100; ++number) {
+    GameRecord game = sample_game(number + 1, number);
+    ASSERT_TRUE(owner->add_game(game));
+    game.over = true;
+    game.result = rules::GameResult{rules::Seat::first, rules::EndReason::conceded};
+    game.acknowledged = {true, number > 2};
+    ASSERT_TRUE(owner->update_game(game));
+  }
+  ASSERT_TRUE(owner->commit());
+  const RowsScanned scanned;
+  auto reader = open_sqlite_reader(directory / "test.db").value();
+  EXPECT_EQ(reader->game_ids().value().size(), 100U);
+  EXPECT_GE(RowsScanned::take(), 98);  // it does count
+  EXPECT_TRUE(reader->counters());
+  EXPECT_EQ(reader->unfinished_games().value().size(), 2U);
+  EXPECT_EQ(reader->unfinished_matches().value().size(), 1U);
+  EXPECT_EQ(reader->unacknowledged_by(AgentId{1}, 256).value().size(), 1U);
+  EXPECT_TRUE(reader->untold_matches(AgentId{1}, 256));
+  EXPECT_TRUE(reader->untold_tournaments(AgentId{1}, 256));
+  EXPECT_LE(RowsScanned::take(), 5);
 }
 
 TEST(SqliteDatabase, reads_consistently_while_the_owner_writes) {

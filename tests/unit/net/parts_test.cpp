@@ -61,6 +61,21 @@ TEST(LagMeter, TakesTheLeastOfTheRecentRoundTrips) {
   EXPECT_EQ(meter.lag(), 40ms);
 }
 
+// What a client does first after its login may keep it from answering.
+TEST(LagMeter, WantsTheFirstProbesOneRightAfterTheOtherAndThenOneInTwoSeconds) {
+  LagMeter meter;
+  auto now = steady_clock::now();
+  for (const auto trip : {90ms, 20ms, 21ms, 20ms}) {
+    EXPECT_TRUE(meter.wants_probe(now));
+    const auto t = meter.probe(now);
+    EXPECT_FALSE(meter.wants_probe(now + 1s));
+    EXPECT_TRUE(meter.answered(t, now += trip));
+  }
+  EXPECT_EQ(meter.lag(), 20ms);
+  EXPECT_FALSE(meter.wants_probe(now + 1s));
+  EXPECT_TRUE(meter.wants_probe(now + 2s));
+}
+
 TEST(LagMeter, CountsAnAnswerOnceAndOnlyToItsOwnProbe) {
   LagMeter meter;
   const auto start = steady_clock::now();
