@@ -19,7 +19,7 @@ namespace {
 std::string eight_bots(const std::string& format) {
   std::string text = "name = \"cup\"\nformat = \"" + format +
                      "\"\ngames_per_match = 1\nmirrored = \"none\"\n"
-                     "max_concurrent_games = 4\nseed = 11\n[clock]\ngame_seconds = 60\n";
+                     "max_concurrent_games = 4\nseed = 11\n[clock]\ngame_seconds = 3600\n";
   for (const char* name : {"a", "b", "c", "d", "e", "f", "g", "h"}) {
     text += "[[entry]]\nname = \"" + std::string(name) + "\"\nhouse = \"random\"\n";
   }

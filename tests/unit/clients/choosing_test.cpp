@@ -22,6 +22,7 @@ Dice dice() {
 rules::GameState after_a_bad_break() {
   auto state = rules::new_game({}, info().table, info().materials);
   state.kind = TurnKind::decision;
+  state.to_move = rules::other(state.breaker);
   state.options = {Decision::accept, Decision::rerack_chooser_breaks,
                    Decision::rerack_breaker_breaks};
   return state;
