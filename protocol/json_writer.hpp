@@ -11,6 +11,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -42,6 +43,13 @@ class JsonWriter {
   JsonWriter& number(long double value);
   // Invalid UTF-8 comes out as U+FFFD.
   JsonWriter& string(std::string_view value);
+  template <std::integral Integer>
+  JsonWriter& integer_or_null(const std::optional<Integer>& value) {
+    return value ? integer(*value) : null();
+  }
+  JsonWriter& string_or_null(const std::optional<std::string>& value) {
+    return value ? string(*value) : null();
+  }
   // One JSON value as it is.
   JsonWriter& raw(std::string_view json);
 

@@ -22,16 +22,6 @@ void write_id(JsonWriter& out, std::string_view key, const std::optional<Id>& id
   }
 }
 
-void write_optional(JsonWriter& out, std::string_view key,
-                    const std::optional<std::int64_t>& value) {
-  out.key(key);
-  if (value) {
-    out.integer(*value);
-  } else {
-    out.null();
-  }
-}
-
 void write_hex_pair(JsonWriter& out, const std::array<std::optional<Hex256>, 2>& pair) {
   out.begin_array();
   for (const std::optional<Hex256>& hex : pair) {
@@ -47,14 +37,14 @@ void write_hex_pair(JsonWriter& out, const std::array<std::optional<Hex256>, 2>&
 void write_clock_settings(JsonWriter& out, const ClockSettings& clock) {
   out.begin_object().key("game_ms").integer(clock.game_ms);
   out.key("increment_ms").integer(clock.increment_ms);
-  write_optional(out, "shot_ms", clock.shot_ms);
+  out.key("shot_ms").integer_or_null(clock.shot_ms);
   out.end_object();
 }
 
 void write_clock(JsonWriter& out, std::string_view key, const ClockReading& clock) {
   out.key(key).begin_object().key("own_ms").integer(clock.own_ms);
   out.key("opponent_ms").integer(clock.opponent_ms);
-  write_optional(out, "deadline_ms", clock.deadline_ms);
+  out.key("deadline_ms").integer_or_null(clock.deadline_ms);
   out.end_object();
 }
 

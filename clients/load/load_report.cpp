@@ -83,11 +83,7 @@ std::string json_of(LoadReport& report) {
     out.string(line);
   }
   out.end_array().key("failure");
-  if (report.failure) {
-    out.string(*report.failure);
-  } else {
-    out.null();
-  }
+  out.string_or_null(report.failure);
   out.end_object();
   return std::move(out).text();
 }

@@ -11,20 +11,12 @@ using protocol::JsonWriter;
 using storage::Digest;
 
 void write_text(JsonWriter& out, const char* key, const std::optional<std::string>& text) {
-  out.key(key);
-  if (text)
-    out.string(*text);
-  else
-    out.null();
+  out.key(key).string_or_null(text);
 }
 
 template <class Integer>
 void write_integer(JsonWriter& out, const char* key, const std::optional<Integer>& value) {
-  out.key(key);
-  if (value)
-    out.integer(*value);
-  else
-    out.null();
+  out.key(key).integer_or_null(value);
 }
 
 void write_digest(JsonWriter& out, const char* key, const std::optional<Digest>& digest) {
@@ -34,12 +26,8 @@ void write_digest(JsonWriter& out, const char* key, const std::optional<Digest>&
 void write_digests(JsonWriter& out, const char* key,
                    const std::array<std::optional<Digest>, 2>& digests) {
   out.key(key).begin_array();
-  for (const std::optional<Digest>& digest : digests) {
-    if (digest)
-      out.string(to_hex(*digest));
-    else
-      out.null();
-  }
+  for (const std::optional<Digest>& digest : digests)
+    out.string_or_null(digest ? std::optional(to_hex(*digest)) : std::nullopt);
   out.end_array();
 }
 
@@ -93,10 +81,7 @@ void write_terms(JsonWriter& out, const storage::TermsRecord& terms, Secrets sec
 void write_entry(JsonWriter& out, const storage::EntryRecord& entry) {
   out.begin_object().key("agent").integer(number(entry.agent)).key("place").integer(entry.place);
   out.key("from_round").integer(entry.from_round).key("until_round");
-  if (entry.until_round)
-    out.integer(*entry.until_round);
-  else
-    out.null();
+  out.integer_or_null(entry.until_round);
   write_text(out, "house_bot", entry.house_bot);
   out.key("house_options").begin_array();
   for (const std::string& option : entry.house_options)

@@ -27,7 +27,8 @@ namespace {
 
 constexpr std::size_t lines_in_one_write = 64;
 constexpr std::size_t tls_record = 16 * 1024;  // the most that one holds
-// How long an ended connection may take to read its last line.
+// How long an ended connection may take to read some more of its last lines; at most
+// ConnectionContext::last_answers for all of them.
 constexpr std::chrono::seconds linger{2};
 // A peer that does not read closes its window, and its system answers the probes of it, at most
 // two minutes apart.
@@ -103,17 +104,18 @@ void Connection::close(Line last, std::string why) {
   count_queued(last->size());
   out_.push_back(std::move(last));
   tell_closed(std::move(why));
+  end_at_most_ = std::chrono::steady_clock::now() + context_.last_answers;
   end_within(linger);
   schedule_flush();
 }
 
 void Connection::end_within(std::chrono::milliseconds time) {
-  end_deadline_ =
-      context_.deadlines.at(std::chrono::steady_clock::now() + time, [weak = weak_from_this()] {
-        if (const auto self = weak.lock()) {
-          self->abort("its last lines were not ready, or not read, in time");
-        }
-      });
+  const SteadyTime end = std::min(std::chrono::steady_clock::now() + time, end_at_most_);
+  end_deadline_ = context_.deadlines.at(end, [weak = weak_from_this()] {
+    if (const auto self = weak.lock()) {
+      self->abort("its last lines were not ready, or not read, in time");
+    }
+  });
 }
 
 void Connection::abort(std::string why) {
@@ -356,6 +358,9 @@ bool Connection::write_some() {
 
 void Connection::written(std::size_t bytes) {
   count_unqueued(bytes);
+  if (state_ == State::closing) {
+    end_within(linger);
+  }
   while (bytes > 0) {
     const std::size_t left = out_.front()->size() - out_offset_;
     if (bytes < left) {

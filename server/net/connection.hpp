@@ -130,6 +130,7 @@ class Connection : public std::enable_shared_from_this<Connection> {
   std::size_t queued_bytes_ = 0;
   std::shared_ptr<std::size_t> queued_in_all_;
   SteadyTime paid_until_{};  // what has been read is within the rate from then on
+  SteadyTime end_at_most_ = SteadyTime::max();  // when it closes
   State state_ = State::open;
   bool input_over_ = false;  // the peer has closed its sending half
   bool flush_pending_ = false;

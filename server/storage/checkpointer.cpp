@@ -2,6 +2,7 @@
 
 #include <sqlite3.h>
 
+#include <algorithm>
 #include <chrono>
 #include <utility>
 
@@ -25,7 +26,9 @@ Expected<std::unique_ptr<Checkpointer>> Checkpointer::start(const std::filesyste
 }
 
 Checkpointer::Checkpointer(std::unique_ptr<SqliteConnection> connection, CheckpointOptions options)
-    : connection_(std::move(connection)), options_(options), thread_([this] { run(); }) {}
+    : connection_(std::move(connection)),
+      options_(options),
+      thread_([this] { run(); }) {}
 
 Checkpointer::~Checkpointer() {
   {
@@ -37,7 +40,9 @@ Checkpointer::~Checkpointer() {
 }
 
 void Checkpointer::log_has(int pages) {
-  if (pages < options_.pages)
+  const int moved = moved_;
+  const int news = pages < moved ? pages : pages - moved;  // fewer: it has been begun anew
+  if (news < options_.pages)
     return;
   const std::lock_guard lock(mutex_);
   if (!std::exchange(due_, true))
@@ -63,7 +68,7 @@ void Checkpointer::run() {
     if (stopping_)
       return;
     lock.unlock();
-    const bool moved = move_all();
+    const bool moved = move_and_begin_anew();
     lock.lock();
     if (!moved)
       changed_.wait_for(lock, pause_after_failure, [this] { return stopping_; });
@@ -71,25 +76,45 @@ void Checkpointer::run() {
   }
 }
 
-bool Checkpointer::move_all() {
-  static_cast<void>(move_once());
+bool Checkpointer::move_and_begin_anew() {
+  Move last = move_to_disk();
+  if (last.is_whole() && last.in_log >= options_.log_pages && !disk_has_failed_) {
+    static_cast<void>(move_to_disk());  // so that little is left
+    last = move_while_writers_wait();
+  }
+  moved_ = std::max(last.moved, 0);
+  return last.is_whole();
+}
+
+Checkpointer::Move Checkpointer::move_while_writers_wait() {
   std::unique_lock lock(mutex_);
   writers_wait_ = true;  // said first: a busy writer leaves no gap to come between
   changed_.wait(lock, [this] { return !writing_ || stopping_; });
   lock.unlock();
-  const bool moved = move_once();
+  const Move last = move();
   lock.lock();
   writers_wait_ = false;
   changed_.notify_all();
-  return moved;
+  return last;
 }
 
-bool Checkpointer::move_once() {
-  int in_log = 0;
-  int moved = 0;
-  const int result = sqlite3_wal_checkpoint_v2(connection_->raw().getHandle(), nullptr,
-                                               SQLITE_CHECKPOINT_PASSIVE, &in_log, &moved);
-  return result == SQLITE_OK && moved == in_log;
+Checkpointer::Move Checkpointer::move_to_disk() {
+  const Move done = move();
+  sqlite3_file* file = nullptr;
+  sqlite3_file_control(connection_->raw().getHandle(), "main", SQLITE_FCNTL_FILE_POINTER,
+                       static_cast<void*>(&file));
+  // What a failed call leaves behind no later one tells: the log has to keep it.
+  if (file == nullptr || file->pMethods == nullptr ||
+      file->pMethods->xSync(file, SQLITE_SYNC_NORMAL | SQLITE_SYNC_DATAONLY) != SQLITE_OK)
+    disk_has_failed_ = true;
+  return done;
+}
+
+Checkpointer::Move Checkpointer::move() {
+  Move result;
+  sqlite3_wal_checkpoint_v2(connection_->raw().getHandle(), nullptr, SQLITE_CHECKPOINT_PASSIVE,
+                            &result.in_log, &result.moved);
+  return result;
 }
 
 }  // namespace poolhall::storage

@@ -7,11 +7,13 @@
 //   (*checkpointer)->begin_writing();  // BEGIN, ..., COMMIT
 //   (*checkpointer)->end_writing();
 //
-// A log that grows all the time is never moved as a whole, and so never begun anew. Therefore each
-// run has two parts: most of it beside the writer, then the little that came meanwhile while the
-// writer waits for its turn. That is what bounds the log.
+// A log that grows all the time is never moved as a whole, and so never begun anew. Therefore, when
+// it has become long, the last little is moved while the writer waits for its turn. SQLite brings
+// the database file to the disk only then; so each move before does it by itself, or all of it
+// would be left to the moment for which the writer waits.
 #pragma once
 
+#include <atomic>
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
@@ -42,14 +44,25 @@ class Checkpointer {
 
  private:
   Checkpointer(std::unique_ptr<SqliteConnection> connection, CheckpointOptions options);
+  // How much a move has found in the log, and how much of that is in the database file now, in
+  // pages; -1: it failed.
+  struct Move {
+    int in_log = -1;
+    int moved = -1;
+    [[nodiscard]] bool is_whole() const { return in_log >= 0 && moved == in_log; }
+  };
   void run();
-  // Whether everything that is in the log is in the database file too.
-  [[nodiscard]] bool move_all();
-  [[nodiscard]] bool move_once();
+  // False if something was in the way: a reader of an older state, a full disk.
+  [[nodiscard]] bool move_and_begin_anew();
+  [[nodiscard]] Move move();
+  [[nodiscard]] Move move_to_disk();
+  [[nodiscard]] Move move_while_writers_wait();
 
   std::unique_ptr<SqliteConnection> connection_;
   CheckpointOptions options_;
-  std::mutex mutex_;  // of what follows
+  bool disk_has_failed_ = false;  // the thread's alone
+  std::atomic<int> moved_ = 0;    // by the last move
+  std::mutex mutex_;              // of what follows
   std::condition_variable changed_;
   bool due_ = false;
   bool stopping_ = false;

@@ -166,16 +166,6 @@ std::optional<std::uint64_t> games_planned(const Field& field) {
   return matches * book.settings().games_per_match;
 }
 
-void write_optional(JsonWriter& out, std::string_view key,
-                    const std::optional<std::uint64_t>& value) {
-  out.key(key);
-  if (value) {
-    out.integer(*value);
-  } else {
-    out.null();
-  }
-}
-
 bool is_scored(const storage::GameRecord& game) {
   return game.over && game.result && game.result->reason != rules::EndReason::void_game;
 }
@@ -189,7 +179,7 @@ void write_progress(JsonWriter& out, const Field& field) {
         std::count_if(games.begin(), games.end(), [](const auto& game) { return !game.over; });
   }
   out.key("games_over").integer(over).key("games_running").integer(running);
-  write_optional(out, "games_planned", games_planned(field));
+  out.key("games_planned").integer_or_null(games_planned(field));
 }
 
 // Of formats that draw one round after the other, and how many there will be if that is known.
@@ -202,8 +192,8 @@ void write_rounds(JsonWriter& out, const Field& field) {
   if (field.book && field.book->schedule().rounds > 0) {
     all = field.book->schedule().rounds;
   }
-  write_optional(out, "rounds_drawn", drawn);
-  write_optional(out, "rounds", all);
+  out.key("rounds_drawn").integer_or_null(drawn);
+  out.key("rounds").integer_or_null(all);
 }
 
 void write_matches(JsonWriter& out, const Field& field, const Names& names) {

@@ -274,7 +274,7 @@ std::uint32_t write_beside_checkpoints(const std::filesystem::path& file, Databa
 
 TEST(SqliteDatabase, begins_its_log_anew_though_there_is_always_something_to_write) {
   TemporaryDirectory directory;
-  auto owner = open_sqlite(directory / "test.db", {.pages = 64}).value();
+  auto owner = open_sqlite(directory / "test.db", {.pages = 64, .log_pages = 128}).value();
   add_samples(*owner);
   const std::uint32_t written = write_beside_checkpoints(directory / "test.db", *owner);
   ASSERT_GT(written, 0U);
@@ -304,7 +304,7 @@ TEST(SqliteDatabase, has_every_turn_when_it_is_killed_among_checkpoints) {
   const pid_t child = fork();
   ASSERT_GE(child, 0);
   if (child == 0) {
-    auto database = open_sqlite(file, {.pages = 64}).value();
+    auto database = open_sqlite(file, {.pages = 64, .log_pages = 128}).value();
     add_samples(*database);
     const std::uint32_t written = write_beside_checkpoints(file, *database);
     std::ofstream(directory / "written") << written << std::flush;
