@@ -15,7 +15,7 @@ std::string decimal(double value) {
 Expected<void> check_number(const CheckedNumber& number) {
   const double value = number.value;
   if (!std::isfinite(value)) {
-    return tl::unexpected(Error{Fault::not_finite, number.field,
+    return tl::unexpected(Error{Fault::not_finite, std::string(number.field),
                                 "got " + decimal(value) + ", expected a finite number"});
   }
   const Bound& low = number.lowest;
@@ -25,7 +25,7 @@ Expected<void> check_number(const CheckedNumber& number) {
   if (is_high_enough && is_low_enough)
     return {};
   return tl::unexpected(Error{
-      Fault::out_of_range, number.field,
+      Fault::out_of_range, std::string(number.field),
       "got " + decimal(value) + ", expected a number " + (low.is_included ? "from " : "above ") +
           decimal(low.value) + (high.is_included ? " to " : " and below ") + decimal(high.value)});
 }

@@ -5,6 +5,7 @@
 
 #include <initializer_list>
 #include <string>
+#include <string_view>
 
 #include "physics/expected.hpp"
 
@@ -28,7 +29,7 @@ struct Bound {
 }
 
 struct CheckedNumber {
-  std::string field;  // JSON Pointer
+  std::string_view field;  // JSON Pointer
   double value = 0;
   Bound lowest;
   Bound highest;

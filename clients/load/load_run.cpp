@@ -89,6 +89,7 @@ class Run final : public Overseer {
   void measure();
   void finish();
   void fail(const std::string& why);
+  [[nodiscard]] SteadyTime first_due(std::size_t table);
   void answer_when_due(LoadAgent& agent);
   void arm();
   void answer_due();
@@ -105,7 +106,8 @@ class Run final : public Overseer {
   std::vector<std::unique_ptr<LoadAgent>> agents_;
   std::vector<Table> tables_;
   std::priority_queue<Due> due_;
-  std::chrono::nanoseconds period_{};
+  std::chrono::nanoseconds period_{};  // of a game, between its answers
+  SteadyTime paced_from_{};
   std::size_t connected_ = 0;
   std::size_t in_ = 0;
   std::size_t playing_ = 0;
@@ -191,13 +193,25 @@ void Run::game_began(LoadAgent& agent) {
     return;
   }
   if (stage_ == Stage::starting) {
-    // Games begin their time-tables one after another, not all at once.
-    table.due =
-        steady_clock::now() + period_ * static_cast<std::int64_t>(agent.index / 2) / options_.games;
+    table.due = first_due(agent.index / 2);
     if (++playing_ == options_.games) {
       warm_up();
     }
   }
+}
+
+// All time-tables together are an even row of answers, whenever each game has begun.
+SteadyTime Run::first_due(std::size_t table) {
+  const SteadyTime now = steady_clock::now();
+  if (playing_ == 0) {
+    paced_from_ = now;
+  }
+  if (!options_.rate) {
+    return now;
+  }
+  const SteadyTime first =
+      paced_from_ + period_ * static_cast<std::int64_t>(table) / options_.games;
+  return first > now ? first : first + period_ * ((now - first) / period_ + 1);
 }
 
 void Run::warm_up() {

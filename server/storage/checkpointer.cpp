@@ -26,9 +26,7 @@ Expected<std::unique_ptr<Checkpointer>> Checkpointer::start(const std::filesyste
 }
 
 Checkpointer::Checkpointer(std::unique_ptr<SqliteConnection> connection, CheckpointOptions options)
-    : connection_(std::move(connection)),
-      options_(options),
-      thread_([this] { run(); }) {}
+    : connection_(std::move(connection)), options_(options), thread_([this] { run(); }) {}
 
 Checkpointer::~Checkpointer() {
   {

@@ -36,6 +36,11 @@ Binder& Binder::operator<<(const Digest& digest) {
   return *this;
 }
 
+Binder& Binder::bytes(std::string_view value) {
+  statement_.bindNoCopy(next_++, value.data(), static_cast<int>(value.size()));
+  return *this;
+}
+
 Binder& Binder::operator<<(std::nullopt_t) {
   statement_.bind(next_++);
   return *this;
@@ -129,7 +134,7 @@ void Binder::put(const ShotPart& shot) {
     *this << std::nullopt << std::nullopt;
 }
 
-Binder& Binder::operator<<(const TurnRecord& turn) {
+Binder& Binder::turn(const TurnRecord& turn, const std::optional<std::string>& texts) {
   *this << number(turn.game) << std::int64_t{turn.number} << name(turn.action)
         << std::int64_t{index(turn.seat)};
   if (turn.request)
@@ -151,13 +156,19 @@ Binder& Binder::operator<<(const TurnRecord& turn) {
   const ClockPart& clock = turn.clock;
   *this << std::int64_t{turn.refusals} << clock.used << clock.forgiven << clock.left[0]
         << clock.left[1] << clock.lag_left[0] << clock.lag_left[1] << turn.stored
-        << turn.physics_version << turn.rules_version << turn.checksum << turn.state_before
-        << turn.state_after << turn.ruling;
-  if (!turn.shot)
-    return *this << std::nullopt << std::nullopt;
-  *this << turn.shot->events;
+        << turn.physics_version << turn.rules_version << turn.checksum;
+  if (texts) {
+    *this << std::string_view() << std::string_view() << std::nullopt << std::nullopt;
+  } else {
+    *this << turn.state_before << turn.state_after << turn.ruling;
+    turn.shot ? *this << turn.shot->events : *this << std::nullopt;
+  }
   // Null unless shared: as in rows that were written before there was such a thing.
-  return turn.shot->shared ? *this << std::int64_t{1} : *this << std::nullopt;
+  if (turn.shot && turn.shot->shared)
+    *this << std::int64_t{1};
+  else
+    *this << std::nullopt;
+  return texts ? bytes(*texts) : *this << std::nullopt;
 }
 
 }  // namespace poolhall::storage

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "server/storage/sqlite_impl.hpp"
+#include "server/storage/turn_texts.hpp"
 
 namespace poolhall::storage {
 
@@ -137,7 +138,12 @@ Expected<void> SqliteDatabase::update_game(const GameRecord& game) {
 
 Expected<void> SqliteDatabase::append_turn(const TurnRecord& turn) {
   static const std::string sql = insert_sql("turns", turn_columns);
-  return insert(sql, turn);
+  return connection_->guarded([&] {
+    const auto texts = packed_texts(turn);
+    auto use = connection_->prepared(sql);
+    Binder(*use).turn(turn, texts);
+    use->exec();
+  });
 }
 
 Expected<std::unique_ptr<Database>> open_sqlite(const std::filesystem::path& file,

@@ -21,7 +21,8 @@ namespace poolhall::storage {
 // Serves as a Reader too: on a connection that may only read.
 class SqliteDatabase final : public Database {
  public:
-  explicit SqliteDatabase(std::unique_ptr<SqliteConnection> reading) : connection_(std::move(reading)) {}
+  explicit SqliteDatabase(std::unique_ptr<SqliteConnection> reading)
+      : connection_(std::move(reading)) {}
   SqliteDatabase(FileLock lock, std::unique_ptr<SqliteConnection> connection,
                  std::unique_ptr<Checkpointer> checkpointer)
       : lock_(std::move(lock)),

@@ -2,6 +2,7 @@
 #include <cstring>
 
 #include "server/storage/sqlite_rows.hpp"
+#include "server/storage/turn_texts.hpp"
 
 namespace poolhall::storage {
 
@@ -12,7 +13,9 @@ SQLite::Column Columns::take() {
 void Columns::fail(const std::string& expected) const {
   const SQLite::Column column = statement_.getColumn(next_ - 1);
   constexpr std::size_t longest = 40;
-  std::string value = column.isNull() ? "null" : column.getText();
+  std::string value = column.isNull()   ? "null"
+                      : column.isBlob() ? std::to_string(column.getBytes()) + " bytes"
+                                        : column.getText();
   if (value.size() > longest)
     value = value.substr(0, longest) + "...";
   throw Unreadable(std::string(column.getName()) + ": got " + value + ", expected " + expected);
@@ -37,6 +40,14 @@ std::string Columns::text() {
   if (!column.isText())
     fail("a text");
   const char* begin = column.getText();
+  return {begin, static_cast<std::size_t>(column.getBytes())};
+}
+
+std::string Columns::bytes() {
+  const SQLite::Column column = take();
+  if (!column.isBlob())
+    fail("bytes");
+  const auto* begin = static_cast<const char*>(column.getBlob());
   return {begin, static_cast<std::size_t>(column.getBytes())};
 }
 
@@ -352,24 +363,32 @@ TurnRecord Columns::turn() {
   turn.physics_version = text();
   turn.rules_version = text();
   turn.checksum = digest();
+  texts(turn);
+  return turn;
+}
+
+// As they are, or all of them in the last column.
+void Columns::texts(TurnRecord& turn) {
   turn.state_before = text();
   turn.state_after = text();
   turn.ruling = optional_text();
-  if (skip_null()) {
-    if (turn.shot)
-      fail("the events of the shot");
-  } else if (turn.shot) {
-    turn.shot->events = text();
-  } else {
-    ++next_;
-    fail("null in a turn without a shot");
-  }
+  const std::optional<std::string> events = optional_text();
   if (!skip_null()) {
     if (integer() != 1 || !turn.shot)
       fail("1 in a shot with shared deviates, else null");
     turn.shot->shared = true;
   }
-  return turn;
+  if (skip_null()) {
+    if (events.has_value() != turn.shot.has_value())
+      fail("the texts, or the events of a shot and of nothing else");
+    if (turn.shot)
+      turn.shot->events = *events;
+    return;
+  }
+  const bool is_alone =
+      turn.state_before.empty() && turn.state_after.empty() && !turn.ruling && !events;
+  if (!is_alone || !unpack_texts(bytes(), turn))
+    fail("the texts of the turn, and nowhere else");
 }
 
 }  // namespace poolhall::storage

@@ -47,7 +47,7 @@ inline constexpr std::string_view turn_columns =
     "intended_v,executed_a,executed_b,executed_theta,executed_phi,executed_v,moved,cue_ball_x,"
     "cue_ball_y,call_kind,call_ball,call_pocket,decision,winner,reason,refusals,used_us,"
     "forgiven_us,first_left_us,second_left_us,first_lag_left_us,second_lag_left_us,stored,"
-    "physics_version,rules_version,checksum,state_before,state_after,ruling,events,shared";
+    "physics_version,rules_version,checksum,state_before,state_after,ruling,events,shared,texts";
 
 // "INSERT INTO table(columns) VALUES(?,?,...)"
 [[nodiscard]] std::string insert_sql(std::string_view table, std::string_view columns);
@@ -64,6 +64,7 @@ class Binder {
   Binder& operator<<(const std::string& text);
   Binder& operator<<(const Digest& digest);
   Binder& operator<<(std::nullopt_t);
+  Binder& bytes(std::string_view value);
   template <class T>
   Binder& operator<<(const std::optional<T>& value) {
     return value ? *this << *value : *this << std::nullopt;
@@ -76,7 +77,8 @@ class Binder {
   Binder& operator<<(const EntryRecord& entry);  // its options have a table of their own
   Binder& operator<<(const MatchRecord& match);
   Binder& operator<<(const GameRecord& game);
-  Binder& operator<<(const TurnRecord& turn);
+  // `texts` is packed_texts(turn): it stands for the long texts, which are then not bound.
+  Binder& turn(const TurnRecord& turn, const std::optional<std::string>& texts);
 
  private:
   void put(const TermsRecord& terms);
@@ -95,6 +97,7 @@ class Columns {
   [[nodiscard]] std::int64_t integer();
   [[nodiscard]] double real();
   [[nodiscard]] std::string text();
+  [[nodiscard]] std::string bytes();
   [[nodiscard]] Digest digest();
   [[nodiscard]] bool flag();
   [[nodiscard]] std::uint32_t count();  // 0 .. 2^32 - 1
@@ -124,6 +127,7 @@ class Columns {
   [[nodiscard]] TermsRecord terms();
   [[nodiscard]] std::optional<rules::GameResult> result();
   [[nodiscard]] std::optional<ShotPart> shot();
+  void texts(TurnRecord& turn);
   [[nodiscard]] rules::Call call();
   [[nodiscard]] protocol::ShotParams stroke();
   [[nodiscard]] ClockPart clock();

@@ -217,7 +217,13 @@ UPDATE entries SET until_round = 0 WHERE withdrawn = 1;
 ALTER TABLE entries DROP COLUMN withdrawn;
 )sql";
 
-constexpr std::array<std::string_view, 4> all{first, second, fair_noise, entry_rounds};
+// A turn's long texts in one compressed value (turn_texts.hpp); rows that have them apart stay.
+constexpr std::string_view packed_texts = R"sql(
+ALTER TABLE turns ADD COLUMN texts BLOB;
+)sql";
+
+constexpr std::array<std::string_view, 5> all{first, second, fair_noise, entry_rounds,
+                                              packed_texts};
 
 }  // namespace
 

@@ -51,7 +51,9 @@ class Writer::Impl {
 
   std::unique_ptr<Database> database_;
   WriterOptions options_;
-  std::optional<StorageFault> trouble_{};  // the writer's thread alone
+  std::optional<StorageFault> trouble_{};  // the writer's thread alone, as are the next two
+  SteadyTime began_{};                     // with the last group
+  std::size_t last_group_ = 0;             // its pieces
 
   std::mutex mutex_;
   std::condition_variable posted_;
@@ -73,7 +75,8 @@ Posted Writer::Impl::post(Work work, Done done) {
     return Posted::full;
   queue_.push_back({std::move(work), std::move(done)});
   ++accepted_;
-  posted_.notify_one();
+  if (queue_.size() == 1)
+    posted_.notify_one();
   return Posted::accepted;
 }
 
@@ -105,10 +108,14 @@ WriterStatistics Writer::Impl::statistics() {
 std::vector<Writer::Impl::Piece> Writer::Impl::next_group() {
   std::unique_lock lock(mutex_);
   posted_.wait(lock, [&] { return stopping_ || !queue_.empty(); });
+  if (last_group_ > 1)
+    posted_.wait_until(lock, began_ + options_.between_commits, [&] { return stopping_; });
+  began_ = std::chrono::steady_clock::now();
   const std::size_t size = std::min(queue_.size(), options_.group_bound);
   const auto end = queue_.begin() + static_cast<std::ptrdiff_t>(size);
   std::vector<Piece> group(std::make_move_iterator(queue_.begin()), std::make_move_iterator(end));
   queue_.erase(queue_.begin(), end);
+  last_group_ = size;
   return group;
 }
 
@@ -120,7 +127,6 @@ void Writer::Impl::run() {
 // Nothing of the group is lost: it is tried until it is stored, refused for what it is, or the
 // writer is stopped and out of patience.
 void Writer::Impl::write(std::vector<Piece> group) {
-  const auto began = std::chrono::steady_clock::now();
   const std::size_t pieces = group.size();
   std::vector<Told> told;
   std::chrono::milliseconds pause = options_.retry_first;
@@ -146,7 +152,7 @@ void Writer::Impl::write(std::vector<Piece> group) {
     ++statistics_.commits;
     statistics_.written += group.size();
     statistics_.largest_group = std::max(statistics_.largest_group, std::uint64_t{pieces});
-    statistics_.busy += std::chrono::steady_clock::now() - began;
+    statistics_.busy += std::chrono::steady_clock::now() - began_;
   }
   tell(std::move(told), pieces);
 }

@@ -43,6 +43,9 @@ struct WriterOptions {
   std::function<void(const WriterHealth&)> on_health{};
   std::size_t queue_bound = 65'536;
   std::size_t group_bound = 1'024;  // pieces of work in a transaction
+  // From the beginning of one commit to the next, where several callers come together: a commit
+  // costs about the same whatever is in it. Who comes alone does not wait.
+  std::chrono::microseconds between_commits{1'500};
   std::chrono::milliseconds retry_first{50};
   std::chrono::milliseconds retry_longest{2'000};
   // How long stop() goes on trying when the database is in trouble.

@@ -264,6 +264,25 @@ TEST_P(DatabaseConformance, lists_the_latest_finished_matches_until_each_agent_a
   EXPECT_THAT(ids(AgentId{2}, 9), ElementsAre(MatchId{2}));
 }
 
+TEST_P(DatabaseConformance, keeps_the_texts_of_a_turn_whatever_they_are) {
+  std::vector<TurnRecord> turns;
+  for (const char* text : {"", "\n", "a\n", "{}", "\xff"}) {
+    turns.push_back(sample_turn(1, static_cast<std::uint32_t>(turns.size() + 1)));
+    turns.back().shot->events = text;
+    turns.push_back(sample_turn(1, static_cast<std::uint32_t>(turns.size() + 1)));
+    turns.back().ruling = text;
+    turns.push_back(sample_turn(1, static_cast<std::uint32_t>(turns.size() + 1)));
+    turns.back().state_before = text;
+    turns.back().ruling.reset();
+    turns.push_back(sample_ending(1, static_cast<std::uint32_t>(turns.size() + 1)));
+    turns.back().state_after = text;
+  }
+  for (const TurnRecord& turn : turns)
+    in_transaction([&] { return database_->append_turn(turn); });
+  for (const TurnRecord& turn : turns)
+    EXPECT_EQ(database_->turn(GameId{1}, turn.number).value(), turn) << turn.number;
+}
+
 TEST_P(DatabaseConformance, finds_the_match_that_a_challenge_asked_for) {
   EXPECT_EQ(database_->match_requested("\"again\"").value(), sample_match(1));
   EXPECT_EQ(database_->match_requested("\"never\"").value(), std::nullopt);

@@ -9,6 +9,7 @@
 #include <array>
 #include <csignal>
 #include <fstream>
+#include <random>
 
 #include "sample_records.hpp"
 #include "tests/support/raw_sqlite.hpp"
@@ -230,6 +231,34 @@ void write_and_die(const std::filesystem::path& file) {
   _exit(1);
 }
 
+TEST(SqliteDatabase, says_that_the_texts_of_a_turn_are_unreadable) {
+  for (const char* damage : {"texts = x'28b52ffd'", "texts = x''", "state_after = '{}'",
+                             "ruling = '{}'", "events = '[]'", "texts = NULL"}) {
+    TemporaryDirectory directory;
+    {
+      auto owner = open_sqlite(directory / "test.db").value();
+      add_samples(*owner);
+      ASSERT_TRUE(owner->begin() && owner->append_turn(sample_turn(1, 1)) && owner->commit());
+    }
+    RawSqlite(directory / "test.db").run(std::string("UPDATE turns SET ") + damage);
+    const auto turn = open_sqlite(directory / "test.db").value()->turn(GameId{1}, 1);
+    ASSERT_FALSE(turn) << damage;
+    EXPECT_EQ(turn.error().fault, StorageFault::unreadable) << damage;
+    EXPECT_THAT(turn.error().reason, HasSubstr("texts")) << damage;
+  }
+}
+
+TEST(SqliteDatabase, stores_what_a_turn_says_again_and_again_once) {
+  TemporaryDirectory directory;
+  auto owner = open_sqlite(directory / "test.db").value();
+  add_samples(*owner);
+  TurnRecord turn = sample_turn(1, 1);
+  turn.state_before = turn.state_after = *turn.ruling = turn.shot->events = noise_text(10'000);
+  ASSERT_TRUE(owner->begin() && owner->append_turn(turn) && owner->commit());
+  EXPECT_EQ(owner->turn(GameId{1}, 1).value(), turn);
+  EXPECT_LT(RawSqlite(directory / "test.db").text("SELECT length(texts) FROM turns"), "10000");
+}
+
 TEST(SqliteDatabase, has_what_was_committed_and_no_more_after_a_kill) {
   TemporaryDirectory directory;
   const pid_t child = fork();
@@ -256,10 +285,19 @@ std::uint32_t times_begun_anew(const std::filesystem::path& file) {
          std::uint32_t{header[14]} << 8 | header[15];
 }
 
+// That cannot be made shorter.
+std::string noise_text(std::size_t length) {
+  std::mt19937 random(7);
+  std::string text(length, ' ');
+  for (char& character : text)
+    character = static_cast<char>(' ' + random() % 90);
+  return text;
+}
+
 // Commits turns without a pause until the log has been begun anew twice; their number.
 std::uint32_t write_beside_checkpoints(const std::filesystem::path& file, Database& database) {
   TurnRecord turn = sample_turn(1, 1);
-  turn.shot->events = std::string(20'000, ' ');
+  turn.shot->events = noise_text(20'000);
   constexpr std::uint32_t most = 200'000;
   constexpr std::uint32_t least = 128;  // several times what the log may hold
   for (std::uint32_t number = 1; number <= most; ++number) {

@@ -96,6 +96,24 @@ TEST_F(WriterTest, writes_what_waits_in_one_commit_and_tells_it_in_order) {
   EXPECT_EQ(writer_->statistics().largest_group, 50U);
 }
 
+TEST_F(WriterTest, waits_for_others_where_several_came_together_but_not_when_it_is_stopped) {
+  start({.between_commits = std::chrono::hours(1)});
+  const auto gate = hold();
+  std::promise<void> together;
+  EXPECT_EQ(writer_->post(turn(1), {}), Posted::accepted);
+  EXPECT_EQ(writer_->post(turn(2), [&](const Expected<void>&) { together.set_value(); }),
+            Posted::accepted);
+  gate->set_value();
+  together.get_future().wait();
+  bool stored = false;
+  EXPECT_EQ(writer_->post(turn(3), [&](const Expected<void>& done) { stored = done.has_value(); }),
+            Posted::accepted);
+  EXPECT_EQ(writer_->statistics().waiting, 1);
+  writer_->stop();
+  EXPECT_TRUE(stored);
+  EXPECT_EQ(writer_->statistics().commits, 3);
+}
+
 TEST_F(WriterTest, tells_a_conflict_to_its_author_and_stores_the_rest) {
   start();
   auto gate = hold();
