@@ -14,6 +14,6 @@ connections = 1000000
 )";
 
 // Some answers are decisions or refused; time-tables are set for so many more than shots.
-inline constexpr double answers_a_shot = 1.12;
+inline constexpr double answers_a_shot = 1.06;
 
 }  // namespace poolhall::bench
