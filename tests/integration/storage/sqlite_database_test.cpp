@@ -317,7 +317,7 @@ std::uint32_t write_beside_checkpoints(const std::filesystem::path& file, Databa
   TurnRecord turn = sample_turn(1, 1);
   turn.shot->events = noise_text(20'000);
   constexpr std::uint32_t most = 200'000;
-  constexpr std::uint32_t least = 1'024;  // several times what the log may hold
+  constexpr std::uint32_t least = 512;  // several times what the log may hold
   for (std::uint32_t number = 1; number <= most; ++number) {
     turn.number = number;
     if (!database.begin() || !database.append_turn(turn) || !database.commit())
