@@ -226,8 +226,8 @@ Answer Game::shot(Seat by, const protocol::Shot& shot, const Arrival& arrival) {
   return Play{{.board = board_,
                .state = state_,
                .noise = record_.noise,
-               .deviates = shot_deviates(mixed_key(record_.key, record_.agent_secrets),
-                                         {record_.id, by, part.index}),
+               .key = mixed_key(record_.key, record_.agent_secrets),
+               .index = {record_.id, by, part.index},
                .previous = head_,
                .row = std::move(turn)}};
 }

@@ -64,7 +64,8 @@ physics::Scene<double> scene_of(const rules::GameState& ready, const Board& boar
 }
 
 void share_deviates(ShotJob& job, const GameKey& key, protocol::GameId first) {
-  job.deviates = shot_deviates(key, {first, job.row.seat, job.row.shot->index, Stream::shared});
+  job.key = key;
+  job.index = {first, job.row.seat, job.row.shot->index, Stream::shared};
   job.row.shot->shared = true;
 }
 
@@ -79,8 +80,8 @@ PlayOutcome play(const ShotJob& job) {
     return protocol::request_error(ready.error());
 
   const protocol::ExecutedShot executed = metered(Area::physics, [&] {
-    return protocol::executed_shot(shot.intended, job.noise, job.deviates, ready->scene.balls,
-                                   board.table, board.materials);
+    return protocol::executed_shot(shot.intended, job.noise, shot_deviates(job.key, job.index),
+                                   ready->scene.balls, board.table, board.materials);
   });
   ready->scene.shot = protocol::to_physics(executed.params);
   const auto simulation =

@@ -35,7 +35,9 @@ struct ShotJob {
   std::shared_ptr<const Board> board;
   rules::GameState state;
   protocol::NoiseParams noise;
-  physics::ShotDeviates deviates{};
+  // What its deviates are drawn from, by the worker.
+  GameKey key{};  // mixed
+  ShotIndex index;
   storage::Digest previous{};  // checksum of the row before
   // Complete but for what the shot brings about: `shot->executed`, `moved`, `events`, the ruling,
   // the state after, the result and the checksum.
