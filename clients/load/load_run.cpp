@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "clients/load/load_agent.hpp"
+#include "clients/load/pace.hpp"
 
 namespace poolhall::load {
 
@@ -89,7 +90,6 @@ class Run final : public Overseer {
   void measure();
   void finish();
   void fail(const std::string& why);
-  [[nodiscard]] SteadyTime first_due(std::size_t table);
   void answer_when_due(LoadAgent& agent);
   void arm();
   void answer_due();
@@ -106,8 +106,7 @@ class Run final : public Overseer {
   std::vector<std::unique_ptr<LoadAgent>> agents_;
   std::vector<Table> tables_;
   std::priority_queue<Due> due_;
-  std::chrono::nanoseconds period_{};  // of a game, between its answers
-  SteadyTime paced_from_{};
+  Pace pace_;
   std::size_t connected_ = 0;
   std::size_t in_ = 0;
   std::size_t playing_ = 0;
@@ -140,7 +139,8 @@ void Run::make_agents() {
   }
   tables_.resize(options_.games);
   if (options_.rate) {
-    period_ = seconds_of(static_cast<double>(options_.games) / *options_.rate);
+    pace_.games = options_.games;
+    pace_.period = seconds_of(static_cast<double>(options_.games) / *options_.rate);
   }
 }
 
@@ -193,25 +193,16 @@ void Run::game_began(LoadAgent& agent) {
     return;
   }
   if (stage_ == Stage::starting) {
-    table.due = first_due(agent.index / 2);
+    if (playing_ == 0) {
+      pace_.from = steady_clock::now();
+    }
+    if (options_.rate) {
+      table.due = pace_.first_due(agent.index / 2, steady_clock::now());
+    }
     if (++playing_ == options_.games) {
       warm_up();
     }
   }
-}
-
-// All time-tables together are an even row of answers, whenever each game has begun.
-SteadyTime Run::first_due(std::size_t table) {
-  const SteadyTime now = steady_clock::now();
-  if (playing_ == 0) {
-    paced_from_ = now;
-  }
-  if (!options_.rate) {
-    return now;
-  }
-  const SteadyTime first =
-      paced_from_ + period_ * static_cast<std::int64_t>(table) / options_.games;
-  return first > now ? first : first + period_ * ((now - first) / period_ + 1);
 }
 
 void Run::warm_up() {
@@ -244,7 +235,7 @@ void Run::finish() {
   }
   // What was due and could not be sent, for the turn had not come.
   for (const Table& table : tables_) {
-    if (options_.rate && table.due + period_ < now) {
+    if (options_.rate && table.due + pace_.period < now) {
       ++report_.unanswered;
       report_.latencies.add(now - table.due);
     }
@@ -298,7 +289,7 @@ void Run::answer_due() {
     if (agent.has_turn()) {
       Table& table = tables_.at(agent.index / 2);
       agent.answer(table.due);
-      table.due += period_;
+      table.due += pace_.period;
     }
   }
   arm();
