@@ -262,7 +262,8 @@ GameCheck::Finding GameCheck::shot(const TurnRecord& row) {
   ShotJob job{.board = board_,
               .state = state_,
               .noise = game_.noise,
-              .deviates = shot_deviates(key_, {game_.id, row.seat, row.shot->index}),
+              .key = key_,
+              .index = {game_.id, row.seat, row.shot->index},
               .previous = head_,
               .row = row};
   if (row.shot->shared) {
