@@ -255,7 +255,7 @@ Error refused_request(std::string field, std::string reason) {
 // What stands around the parameters.
 struct Frame {
   std::optional<RequestId> id;
-  Method method;
+  Method method{};
 };
 
 Expected<std::optional<RequestId>> read_request_id(const JsonValue& document) {

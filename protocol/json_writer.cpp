@@ -16,7 +16,8 @@ bool is_plain(std::string_view text) {
 
 template <class Number>
 void append(std::string& text, Number value) {
-  std::array<char, 64> digits;  // the longest shortest double has 24, long double 30
+  // The longest shortest double has 24, long double 30.
+  std::array<char, 64> digits;  // NOLINT(*-member-init): to_chars writes what is read
   const auto [end, failure] = std::to_chars(digits.data(), digits.data() + digits.size(), value);
   static_cast<void>(failure);
   text.append(digits.data(), end);

@@ -18,7 +18,7 @@ double ms(Latencies::Duration duration) {
 
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
-  std::array<char, 256> line;
+  std::array<char, 256> line{};
   std::snprintf(line.data(), line.size(), format, values...);
   return line.data();
 }

@@ -97,7 +97,8 @@ NoiseTest of_neighbours(const std::vector<double>& all) {
   };
   for (std::size_t i = 0; i + 1 < all.size(); i += 2)
     counts[cell(all[i])][cell(all[i + 1])] += 1;
-  const double expected = static_cast<double>(all.size() / 2) / (cells * cells);
+  const std::size_t pairs = all.size() / 2;
+  const double expected = static_cast<double>(pairs) / (cells * cells);
   double chi_square = 0;
   for (const auto& row : counts) {
     for (const double count : row)

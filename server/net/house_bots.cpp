@@ -12,8 +12,6 @@
 #include "server/net/child_process.hpp"
 #include "server/net/session.hpp"
 
-extern char** environ;
-
 namespace poolhall::net {
 
 using std::chrono::steady_clock;

@@ -147,7 +147,7 @@ void Listener::refuse(tcp::socket socket, const Error& error) {
   socket.non_blocking(true, ignored);
   socket.write_some(asio::buffer(line), ignored);
   socket.shutdown(tcp::socket::shutdown_send, ignored);
-  std::array<char, 4096> unread;
+  std::array<char, 4096> unread{};
   socket.read_some(asio::buffer(unread), ignored);
   socket.close(ignored);
 }

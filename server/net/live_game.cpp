@@ -166,7 +166,7 @@ bool LiveGame::is_awaited(Seat seat, const protocol::Request& request) const {
   return decide != nullptr && decide->turn == game_.state().turn;
 }
 
-void LiveGame::take(GameRequest request) {
+void LiveGame::take(const GameRequest& request) {
   if (halted_) {
     request.asker.refuse(
         {ErrorCode::shutting_down, "", "the server stops; ask again when it is back", record().id});

@@ -72,7 +72,7 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
 
   // Tells the agents of it; the first turn comes when they are in.
   void begin();
-  void take(GameRequest request);
+  void take(const GameRequest& request);
   void sync(const Asker& asker, Seat seat) const;
   void reveal(const Asker& asker, Seat seat, const protocol::GameReveal& request);
   // A session of this player's is new: all that a bot without memory needs.

@@ -284,7 +284,7 @@ void Matches::join_pair(LiveMatch& match, const std::shared_ptr<LiveGame>& game)
 }
 
 void Matches::game_over(const LiveGame& live) {
-  const storage::GameRecord game = live.record();
+  const storage::GameRecord& game = live.record();
   const auto found = matches_.find(game.match);
   if (found == matches_.end()) {
     return;

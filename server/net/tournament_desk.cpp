@@ -160,7 +160,7 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::create(const std::string&
   const auto same_text = [&](const TournamentCard& card) {
     return card.settings == text || card.settings.ends_with("\n" + text);
   };
-  if (const auto known = card_of(settings->name)) {
+  if (auto known = card_of(settings->name)) {
     if (same_text(*known)) {
       return known;
     }
@@ -170,7 +170,7 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::create(const std::string&
   // The racks' seed is part of what is stored, so that a restart plays the same racks.
   const std::string stored =
       settings->seed ? text : fmt::format("seed = {}\n{}", random_seed(), text);
-  const TournamentCard card =
+  TournamentCard card =
       host_.open_tournament({settings->name, settings->name, stored, TournamentStatus::open});
   enter_all(card);
   return card;
@@ -220,7 +220,7 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::in_status(const std::stri
 }
 
 TournamentDesk::Result<TournamentCard> TournamentDesk::start(const std::string& id) {
-  const auto card = card_of(id);
+  auto card = card_of(id);
   if (!card || card->status == TournamentStatus::running) {
     return card;
   }
@@ -239,7 +239,7 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::start(const std::string& 
 }
 
 TournamentDesk::Result<TournamentCard> TournamentDesk::pause(const std::string& id) {
-  const auto card = card_of(id);
+  auto card = card_of(id);
   if (!card || card->status == TournamentStatus::paused) {
     return card;
   }
@@ -254,14 +254,14 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::pause(const std::string& 
 }
 
 TournamentDesk::Result<TournamentCard> TournamentDesk::resume(const std::string& id) {
-  const auto card = card_of(id);
+  auto card = card_of(id);
   if (!card || card->status == TournamentStatus::running) {
     return card;
   }
   if (card->status != TournamentStatus::paused) {
     return wrong_status(*card, "a paused one");
   }
-  const auto running = in_status(id, TournamentStatus::running);
+  auto running = in_status(id, TournamentStatus::running);
   matches_.set_pace(id, Matches::Pace::steady);
   if (const auto found = running_.find(id); found != running_.end()) {
     found->second.share->go_on();
@@ -270,7 +270,7 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::resume(const std::string&
 }
 
 TournamentDesk::Result<TournamentCard> TournamentDesk::abort(const std::string& id) {
-  const auto card = card_of(id);
+  auto card = card_of(id);
   if (!card || card->status == TournamentStatus::aborted) {
     return card;
   }

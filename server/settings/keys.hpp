@@ -78,7 +78,7 @@ template <class Target>
 class Keys {
  public:
   template <class Kind, class Access>
-  void add(std::string name, Kind kind, Access access) {
+  void add(std::string name, const Kind& kind, Access access) {
     entries_.push_back(
         {std::move(name), kind.expected(), detail::expected_now(kind),
          [kind, access](const Node& node, Target& target) {

@@ -220,10 +220,9 @@ void Admin::agent_call(const AdminRequest& request, const Then& then) const {
 void Admin::game_call(std::string_view rest, const Then& then) const {
   constexpr std::string_view call = "/void";
   std::int64_t game = 0;
-  const char* const last = rest.data() + rest.size();
-  const auto [end, error] = std::from_chars(rest.data(), last, game);
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), game);
   if (error != std::errc{} || game < 1 ||
-      std::string_view(end, static_cast<std::size_t>(last - end)) != call) {
+      rest.substr(static_cast<std::size_t>(end - rest.data())) != call) {
     then(no_such_call());
     return;
   }

@@ -2,6 +2,7 @@
 
 namespace poolhall::web {
 
+// NOLINTNEXTLINE(readability-function-size): one document, written as it is served
 std::string_view openapi_schemas() {
   return R"({
 "Refusal": {

@@ -20,7 +20,7 @@ struct Route {
   std::string_view path;    // "/api/games/{game}"
   std::string_view summary;
   For who = For::everybody;
-  std::string_view request = "";     // what the body is, "" for none
+  std::string_view request = {};     // what the body is, "" for none
   std::string_view answers = "200";  // statuses of success, with a space between
   std::string_view type = "application/json";
 };

@@ -162,7 +162,7 @@ void Site::read_shared(const std::string& path, Then then) {
   if (kept.waiting.size() > 1) {
     return;
   }
-  read(path, [this, path, began = now](Page page) {
+  read(path, [this, path, began = now](const Page& page) {
     Kept& done = kept_[path];
     const auto ended = steady_clock::now();
     done.page = page;

@@ -79,7 +79,7 @@ asio::awaitable<void> Wire::part() {
   beast::tcp_stream& stream = streams_->lowest();
   Error ignored;
   stream.socket().shutdown(tcp::socket::shutdown_send, ignored);
-  std::array<char, 4096> bytes;
+  std::array<char, 4096> bytes{};
   for (std::size_t total = 0; total < farewell_bytes;) {
     const auto [failed, got] = co_await stream.async_read_some(asio::buffer(bytes), awaited);
     if (failed) {

@@ -232,7 +232,7 @@ class Audience::Room {
   tcp::endpoint server_;
   std::string request_;
   std::vector<std::unique_ptr<Seat>> seats_;
-  std::array<char, 64 * 1024> bytes_read_;
+  std::array<char, 64 * 1024> bytes_read_{};
   std::vector<Turn> turns_;
   std::size_t seated_ = 0;
   std::uint64_t bytes_ = 0;

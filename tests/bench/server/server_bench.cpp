@@ -32,7 +32,7 @@ constexpr double goal_p99_ms = 10;
 
 template <class... Values>
 std::string formatted(const char* format, Values... values) {
-  std::array<char, 300> line;
+  std::array<char, 300> line{};
   std::snprintf(line.data(), line.size(), format, values...);
   return line.data();
 }

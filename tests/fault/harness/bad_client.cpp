@@ -75,7 +75,7 @@ class Rude {
         return line;
       }
       pollfd readable{socket_, POLLIN, 0};
-      std::array<char, 65536> buffer;
+      std::array<char, 65536> buffer{};
       if (::poll(&readable, 1, static_cast<int>(patience.count())) <= 0) {
         return std::nullopt;
       }

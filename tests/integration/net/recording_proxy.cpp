@@ -73,7 +73,7 @@ void RecordingProxy::pass_on(int client) const {
       if (ends[from].revents == 0) {
         continue;
       }
-      std::array<char, 65536> buffer;
+      std::array<char, 65536> buffer{};
       const auto got = ::recv(ends[from].fd, buffer.data(), buffer.size(), 0);
       open = open && got > 0;
       const std::string_view bytes(buffer.data(), got > 0 ? static_cast<std::size_t>(got) : 0);

@@ -12,8 +12,6 @@
 #include <stdexcept>
 #include <utility>
 
-extern char** environ;
-
 namespace poolhall::test_support {
 namespace {
 
@@ -123,7 +121,7 @@ std::optional<std::string> Child::read_line() {
       read_.erase(0, end + 1);
       return line;
     }
-    std::array<char, 4096> buffer;
+    std::array<char, 4096> buffer{};
     const ssize_t count = ::read(output_, buffer.data(), buffer.size());
     if (count < 0 && errno == EINTR) {
       continue;

@@ -62,7 +62,7 @@ std::string await(const std::filesystem::path& ready, const Child& server, int w
     }
     pollfd changed{watch, POLLIN, 0};
     if (::poll(&changed, 1, look_again_ms) > 0) {
-      std::array<char, 4096> events;
+      std::array<char, 4096> events{};
       static_cast<void>(!::read(watch, events.data(), events.size()));
     }
   }

@@ -78,7 +78,7 @@ TEST(GreedyBot, ThinksLessAsItsClockRunsDown) {
 }
 
 std::uint32_t games_to_play() {
-  const char* text = std::getenv("POOLHALL_STRENGTH_GAMES");  // NOLINT(concurrency-mt-unsafe)
+  const char* text = std::getenv("POOLHALL_STRENGTH_GAMES");
   return text == nullptr ? 4 : static_cast<std::uint32_t>(std::stoul(text));
 }
 
