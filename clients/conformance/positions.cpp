@@ -136,8 +136,9 @@ GamePlan in_hand_crowded_kitchen() {
   Layout layout = eight().scattered({8}).solids();
   constexpr std::array<unsigned, 11> balls{1, 2, 3, 4, 5, 6, 10, 11, 12, 13, 14};
   for (std::size_t i = 0; i < balls.size(); ++i) {
+    const std::size_t row = i / 5;
     layout.put(balls[i], 0.12 + 0.19 * static_cast<double>(i % 5),
-               0.04 + 0.08 * static_cast<double>(i / 5));
+               0.04 + 0.08 * static_cast<double>(row));
   }
   layout.put(7, 0.6, 0.6);  // outside, so that there is something to play at
   return layout.put(0, 0.5, 0.9).kind(TurnKind::ball_in_hand_behind_head_string).plan();

@@ -51,7 +51,8 @@ std::string game_sheet(const std::string& title, const std::vector<SheetShot>& s
                   heading + static_cast<double>(rows) * height, gap, escaped(title));
   for (std::size_t i = 0; i < shots.size(); ++i) {
     const double x = gap + static_cast<double>(i % columns) * width;
-    const double y = heading + static_cast<double>(i / columns) * height;
+    const std::size_t row = i / columns;
+    const double y = heading + static_cast<double>(row) * height;
     svg += fmt::format(R"svg(<text x="{0:.0f}" y="{1:.0f}" font-size="13">{2}</text>)svg"
                        R"svg(<g transform="translate({0:.0f} {3:.0f}) scale({4})">{5}</g>)svg"
                        "\n",

@@ -250,8 +250,9 @@ void write_panels(const std::vector<LogLogPlot>& plots, std::size_t columns,
     const LogLogPlot& plot = plots[n];
     const Axis x = axis_of(plot.series, &PlotPoint::x);
     const Axis y = axis_of(plot.series, &PlotPoint::y);
+    const std::size_t row = n / columns;
     out << "<g transform=\"translate(" << panel_width * static_cast<double>(n % columns) << ' '
-        << panel_height * static_cast<double>(n / columns) << ")\">\n";
+        << panel_height * static_cast<double>(row) << ")\">\n";
     draw_axes(out, plot, x, y);
     for (std::size_t i = 0; i < plot.series.size(); ++i) {
       draw_series(out, plot.series[i], i, x, y);

@@ -133,9 +133,10 @@ struct Impact {
 };
 
 std::array<Impact, 6> impacts() {
-  std::array<Impact, 6> out;
+  std::array<Impact, 6> out{};
   for (std::size_t i = 0; i < out.size(); ++i) {
-    const double angle = static_cast<double>(i / 2) * std::numbers::pi / 6;
+    const std::size_t direction = i / 2;
+    const double angle = static_cast<double>(direction) * std::numbers::pi / 6;
     out[i].velocity = {std::cos(angle), std::sin(angle)};
     if (i % 2 == 1) {
       out[i].spin = {-out[i].velocity.y, out[i].velocity.x, 0};
