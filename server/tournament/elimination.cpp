@@ -185,7 +185,7 @@ class Elimination {
     const auto winner = play(match, *one.entry, *two.entry);
     if (winner) {
       const EntryId loser = *winner == *one.entry ? *two.entry : *one.entry;
-      outcome = {{true, *winner}, {true, loser}};
+      outcome = {{true, winner}, {true, loser}};
     }
   }
 

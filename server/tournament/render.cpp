@@ -188,7 +188,7 @@ std::string progress_text(const Progress& progress) {
 }
 
 std::string duration_text(Seconds duration) {
-  const auto seconds = static_cast<long long>(std::llround(std::max(0.0, duration.count())));
+  const long long seconds = std::llround(std::max(0.0, duration.count()));
   if (seconds >= 3600) {
     return fmt::format("{}:{:02}:{:02}", seconds / 3600, seconds / 60 % 60, seconds % 60);
   }
