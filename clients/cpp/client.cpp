@@ -104,8 +104,8 @@ class Client::Life : public Outside {
         clock.own -= std::chrono::duration_cast<std::chrono::microseconds>(
             std::chrono::steady_clock::now() - asked);
         clock.own = std::max(clock.own, std::chrono::microseconds{0});
-        Move move = player->choose({info, task.state, clock, task.key.refusals, task.shots});
-        asio::post(io_, [this, game = game_id(info), key = task.key, move = std::move(move)] {
+        const Move move = player->choose({info, task.state, clock, task.key.refusals, task.shots});
+        asio::post(io_, [this, game = game_id(info), key = task.key, move] {
           agent_.move_chosen(game, key, move);
         });
       } catch (...) {
@@ -235,7 +235,7 @@ class Client::Life : public Outside {
   SteadyClock::time_point last_line_at_{};
   bool was_logged_in_ = false;
   std::optional<End> end_{};
-  std::exception_ptr failure_{};
+  std::exception_ptr failure_;
   // Last, so that no thought outlives what it reports to.
   asio::thread_pool thinkers_;
 };
