@@ -70,7 +70,7 @@ const std::vector<Room>& rooms() {
        {}},
       {"server/storage",
        {"server/meter", "protocol", "rules", "physics"},
-       with_system({"SQLiteCpp/", "sqlite3.h", "spdlog/", "fmt/"}),
+       with_system({"SQLiteCpp/", "sqlite3.h", "zstd.h", "spdlog/", "fmt/"}),
        {}},
       {"server/match",
        {"server/storage", "server/meter", "protocol", "rules", "physics"},
