@@ -45,6 +45,19 @@ function columns(places) {
   return [...rounds].sort(([a], [b]) => a - b).filter(([, list]) => list.some((place) => place.played));
 }
 
+/**
+ * The boxes of a round, each joined to where its winner goes: two to one, or one to one where losers of the
+ * other side come in.
+ * @param {any[]} places
+ * @param {any[]} next of the round that follows, none after the last
+ * @param {(place: any) => Node} boxOf
+ */
+function slots(places, next, boxOf) {
+  const joined = next.length === 0 ? '' : next.length < places.length ? 'pairs' : 'straight';
+  return h('div', { class: `boxes ${joined}` }, places.map((place) =>
+    h('div', { class: `slot ${place.played ? '' : 'bye'}` }, boxOf(place))));
+}
+
 /** @param {any} data */
 export function bracket(data) {
   const byId = new Map(data.matches.map((/** @type {any} */ match) => [match.match, match]));
@@ -54,8 +67,8 @@ export function bracket(data) {
   return sides.map(([side, title]) => {
     const rounds = columns(data.bracket.filter((/** @type {any} */ place) => place.side === side));
     return rounds.length > 0 && h('div', {}, both && h('h3', {}, title),
-      h('div', { class: 'scroll' }, h('div', { class: 'bracket' }, rounds.map(([round, places]) =>
+      h('div', { class: 'scroll' }, h('div', { class: 'bracket' }, rounds.map(([round, places], i) =>
         h('div', { class: 'round' }, h('span', { class: 'dim' }, `Round ${round}`),
-          h('div', { class: 'boxes' }, places.map((place) => box(place, matchesOf(place)))))))));
+          slots(places, rounds[i + 1]?.[1] ?? [], (place) => box(place, matchesOf(place))))))));
   });
 }

@@ -34,6 +34,12 @@ export function ticks(low, high, count) {
   return out;
 }
 
+/** Units across a chart; fewer where there is little room, for its text shrinks with it. */
+const chartWidth = () => Math.max(320, Math.min(640, window.innerWidth - 40));
+
+/** @param {number | string} value */
+const withMinus = (value) => String(value).replace('-', '−');
+
 /** @param {string} name */
 const shortened = (name) => (name.length > longestLabel ? `${name.slice(0, longestLabel - 1)}…` : name);
 
@@ -46,16 +52,17 @@ export function intervalChart(rows, title) {
   const low = Math.min(...rows.map((r) => r.value - r.margin));
   const high = Math.max(...rows.map((r) => r.value + r.margin));
   const pad = (high - low || 100) * 0.06;
-  const [width, left, line, top] = [640, 150, 30, 8];
+  const width = chartWidth();
+  const [left, line, top] = [Math.min(150, width * 0.3), 30, 8];
   const height = top + rows.length * line + 26;
   const x = (/** @type {number} */ v) =>
     left + ((v - low + pad) / (high - low + 2 * pad || 1)) * (width - left - 16);
-  const grid = ticks(low - pad, high + pad, 6);
+  const grid = ticks(low - pad, high + pad, width / 100);
   return svg('svg', { class: 'chart', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': title },
     svg('title', {}, title),
     grid.map((v) => [
       svg('line', { class: v === 0 ? 'axis' : 'grid', x1: x(v), x2: x(v), y1: top, y2: height - 22 }),
-      svg('text', { class: 'tick', x: x(v), y: height - 6, 'text-anchor': 'middle' }, Math.round(v)),
+      svg('text', { class: 'tick', x: x(v), y: height - 6, 'text-anchor': 'middle' }, withMinus(Math.round(v))),
     ]).flat(),
     rows.map((row, i) => {
       const y = top + (i + 0.5) * line;
@@ -76,7 +83,7 @@ export function intervalChart(rows, title) {
  * @param {{log_likelihood_ratio: number, lower: number, upper: number, verdict: string, pairs: number}} test
  */
 export function testGauge({ log_likelihood_ratio: ratio, lower, upper, verdict, pairs }) {
-  const [width, height, side, line] = [640, 62, 46, 26];
+  const [width, height, side, line] = [chartWidth(), 62, 46, 26];
   const low = Math.min(lower, ratio);
   const high = Math.max(upper, ratio);
   const x = (/** @type {number} */ v) => side + ((v - low) / (high - low)) * (width - 2 * side);
@@ -84,7 +91,7 @@ export function testGauge({ log_likelihood_ratio: ratio, lower, upper, verdict, 
   const bound = (/** @type {number} */ value, /** @type {string} */ name, /** @type {boolean} */ met) => [
     svg('line', { class: 'axis', x1: x(value), x2: x(value), y1: line - 12, y2: line + 12 }),
     svg('text', { class: met ? 'label' : 'tick', x: x(value), y: height - 8, 'text-anchor': 'middle' },
-      `${name} ${value.toFixed(2)}`),
+      withMinus(`${name} ${value.toFixed(2)}`)),
   ];
   return svg('svg', { class: 'chart gauge', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': title },
     svg('title', {}, title),
@@ -106,7 +113,7 @@ export function lineChart(series, title, below) {
   const [lowX, highX] = [0, Math.max(1, ...all.map((p) => p.x))];
   const lowY = Math.min(...all.map((p) => p.y - p.margin), 1400);
   const highY = Math.max(...all.map((p) => p.y + p.margin), 1600);
-  const [width, height, left, right, top, bottom] = [640, 320, 48, 14, 10, 40];
+  const [width, height, left, right, top, bottom] = [chartWidth(), 320, 48, 14, 10, 40];
   const x = (/** @type {number} */ v) => left + ((v - lowX) / (highX - lowX)) * (width - left - right);
   const y = (/** @type {number} */ v) =>
     height - bottom - ((v - lowY) / (highY - lowY)) * (height - top - bottom);
@@ -117,7 +124,7 @@ export function lineChart(series, title, below) {
       svg('line', { class: 'grid', x1: left, x2: width - right, y1: y(v), y2: y(v) }),
       svg('text', { class: 'tick', x: left - 8, y: y(v) + 4, 'text-anchor': 'end' }, Math.round(v)),
     ]).flat(),
-    ticks(lowX, highX, 6).map((v) =>
+    ticks(lowX, highX, width / 100).map((v) =>
       svg('text', { class: 'tick', x: x(v), y: height - bottom + 18, 'text-anchor': 'middle' }, v)),
     svg('text', { class: 'tick', x: (left + width) / 2, y: height - 4, 'text-anchor': 'middle' }, below),
     series.map(({ label, points }, i) => {
@@ -128,10 +135,11 @@ export function lineChart(series, title, below) {
       const upper = points.map((p) => at(x(p.x), y(p.y + p.margin)));
       const lower = points.map((p) => at(x(p.x), y(p.y - p.margin))).reverse();
       return [
-        svg('path', { d: `M${[...upper, ...lower].join('L')}Z`, fill: colour, opacity: 0.14 }),
+        svg('path', { d: `M${[...upper, ...lower].join('L')}Z`, fill: colour, opacity: series.length > 3 ? 0.07 : 0.14 }),
         svg('path', {
           d: `M${points.map((p) => at(x(p.x), y(p.y))).join('L')}`, class: 'line', stroke: colour,
         }, svg('title', {}, label)),
+        svg('circle', { cx: x(points[points.length - 1].x), cy: y(points[points.length - 1].y), r: 3.5, fill: colour }),
       ];
     }).flat());
 }

@@ -10,6 +10,7 @@ import { ballsOf, sceneOf } from './scene.js';
 import { ShotList } from './shot_list.js';
 import { TableView } from './table_view.js';
 import { TransportBar } from './transport_bar.js';
+import { resultWords } from './words.js';
 
 const stillFrame = matchMedia('(prefers-reduced-motion: reduce)');
 /** Shots that wait to be shown live; beyond, the oldest are skipped. */
@@ -55,6 +56,8 @@ export class GameView {
       await this.showTurn(shot, t ?? -1, false);
     } else if (this.shots.length > 0) {
       await this.showTurn(this.game.over ? this.shots[0].turn : this.shots.at(-1).turn, -1, false);
+    } else if (this.game.over) {
+      await this.showTurn(this.game.turns.at(-1).turn, 0, false);  // nobody came to play
     } else {
       this.showState(this.game.initial_state);
     }
@@ -126,6 +129,7 @@ export class GameView {
       h('span', { class: 'tag' }, game.rules),
       h('span', { class: 'tag' }, `table ${game.table}`),
       game.noise === 'hidden' && h('span', { class: 'tag' }, 'noise hidden'),
+      game.over && h('span', { class: 'tag' }, resultWords(game)),
     ];
   }
 

@@ -36,11 +36,12 @@ export class ShotList {
    */
   item(game, turn) {
     const foul = (turn.ruling?.fouls ?? []).length > 0;
+    const what = `${turnWords(turn)}${foul ? ' (foul)' : ''}`;
     return h('li', { class: foul ? 'foul' : '', 'data-turn': turn.turn },
       h('a', { href: `#/games/${game.game}/shots/${turn.turn}` },
         h('span', { class: 'n' }, turn.turn),
         h('span', { class: `seat seat${turn.by}` }, game.agents[turn.by]),
-        h('span', { class: 'what' }, turnWords(turn), foul ? ' (foul)' : '')));
+        h('span', { class: 'what', title: what }, what)));
   }
 
   /**

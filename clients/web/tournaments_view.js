@@ -12,12 +12,21 @@ export const liveGame = (game) => h('a', { class: 'live-game', href: `#/games/${
   h('span', { class: 'pulse', 'aria-hidden': 'true' }), `${game.agents[0]} – ${game.agents[1]}`,
   h('span', { class: 'dim' }, `game ${game.game}`));
 
+/**
+ * What no line ends in.
+ * @param {string} text
+ */
+const together = (text) => h('span', { class: 'together' }, text);
+
 /** @param {any} tournament */
 export function progressBar({ games_over, games_planned, games_running }) {
+  // A test may be decided while games go on.
+  const beyond = games_planned ? Math.max(0, games_over - games_planned) : 0;
   const all = games_planned ? ` of ${games_planned}` : '';
   return h('div', { class: 'progress' },
     games_planned && h('progress', { max: games_planned, value: games_over, 'aria-label': 'Games played' }),
-    h('span', {}, `${games_over}${all} games`, games_running > 0 ? `, ${games_running} running` : ''));
+    h('span', {}, `${games_over - beyond}${all} games`, beyond > 0 ? `, ${beyond} too late to count` : '',
+      games_running > 0 ? `, ${games_running} running` : ''));
 }
 
 export class TournamentsView {
@@ -61,9 +70,10 @@ export class TournamentsView {
       h('div', { class: 'card-head' }, h('h2', {}, tournament.title || tournament.tournament),
         h('span', { class: `tag status-${tournament.status}` }, tournament.status)),
       h('p', { class: 'dim' }, [tournament.rules, tournament.format && spaced(tournament.format),
-        `${names.length} entries`, dateText(tournament.created_ms)].filter(Boolean).join(' · ')),
+        `${names.length} entries`, dateText(tournament.created_ms)].filter(Boolean)
+        .flatMap((text, i) => [i > 0 && ' · ', together(text)])),
       progressBar(tournament),
-      h('p', { class: 'names' }, names.slice(0, 8).join(', '), names.length > 8 ? ', …' : ''));
+      h('p', { class: 'names' }, names.slice(0, 8).flatMap((/** @type {string} */ name, /** @type {number} */ i) => [i > 0 && ', ', together(name)]), names.length > 8 ? ', …' : ''));
   }
 
   /** @param {any[]} games */

@@ -101,12 +101,62 @@ test('a single elimination shows its bracket, byes and all', enough, () =>
     assert.deepEqual(await textOf(page, '.bracket .round > .dim'), ['Round 1', 'Round 2', 'Round 3']);
   }));
 
+/** How far each box of a bracket's second column is from the middle of the boxes of the first that lead to it, px. */
+const offMiddle = (page) => page.evaluate(() => {
+  const [first, second] = [...document.querySelector('.bracket').querySelectorAll('.round')].map((round) =>
+    [...round.querySelectorAll('.box')].map((box) => box.getBoundingClientRect()).map(({ top, bottom }) => (top + bottom) / 2));
+  return second.map((y, i) => Math.abs(y - (first[2 * i] + first[2 * i + 1]) / 2));
+});
+
 test('a double elimination shows both sides and the final', enough, () =>
   watched('twice', settings('twice', 'double_elimination', ['able', 'b', 'c', 'd']), async (page, data) => {
     assert.deepEqual(await textOf(page, 'h3'), ['Winners’ side', 'Losers’ side', 'Final']);
     assert.equal(data.bracket.at(-1).winner, data.standings[0].agent);
     await checkBracket(page, data);
+    assert.ok((await offMiddle(page)).every((off) => off < 1), 'a match stands between those that lead to it');
+    const joined = await page.evaluate(() => [...document.querySelectorAll('.boxes')].map((boxes) => boxes.className));
+    assert.deepEqual(joined.slice(0, 4), ['boxes pairs', 'boxes ', 'boxes straight', 'boxes ']);
   }));
+
+test('a ladder of eight has all of its crosstable on the screen', enough, () =>
+  watched('ladder', settings('ladder', 'ladder', ['able', 'b', 'c', 'd', 'e', 'f', 'g', 'h'], 'rounds = 1'), async (page) => {
+    const hidden = await page.evaluate(() => {
+      const { parentElement } = document.querySelector('.cross');
+      return parentElement.scrollWidth - parentElement.clientWidth;
+    });
+    assert.ok(hidden <= 0, `${hidden} px are hidden`);
+  }));
+
+test('a game that nobody came to play tells who has won it, and how', enough, async () => {
+  const absent = '[[entry]]\nagent = "absent"\n';
+  await asHost('tournaments', settings('absence', 'round_robin', ['able']) + absent);
+  await asHost('tournaments/absence/start');
+  await asHost('tournaments/absence/withdraw', JSON.stringify({ agent: 'absent' }));
+  const { matches: [{ games: [{ game }] }] } = await until(async () => {
+    const data = await api('/api/tournaments/absence');
+    return data.status === 'finished' && data;
+  }, 'both games are forfeited');
+  const page = await browser.newPage();
+  await page.open(`${server.url}/#/games/${game}`);
+  await page.ready(`games/${game}`);
+  assert.match(await page.evaluate(() => document.querySelector('.ruling').textContent), /absence-able wins: forfeit/);
+  assert.match(await page.evaluate(() => document.querySelector('.crumbs').textContent), /absence-able won, forfeit/);
+  assert.equal(await page.evaluate(() => document.querySelector('.player.winner .name').textContent), 'absence-able');
+  await page.close();
+});
+
+test('games that came too late to count are told apart from those that were planned', enough, async () => {
+  const page = await browser.newPage();
+  await page.open(`${server.url}/#/`);
+  await page.ready('tournaments/');
+  const told = (data) => page.evaluate(async (of) => {
+    const { progressBar } = await import('/tournaments_view.js');
+    return progressBar(of).textContent;
+  }, data);
+  assert.equal(await told({ games_over: 50, games_planned: 48, games_running: 0 }), '48 of 48 games, 2 too late to count');
+  assert.equal(await told({ games_over: 3, games_planned: 48, games_running: 2 }), '3 of 48 games, 2 running');
+  await page.close();
+});
 
 test('an SPRT shows where it stands between its bounds', enough, () =>
   watched('test', settings('test', 'sprt', ['able', 'b'], 'rounds = 40\n[sprt]\nelo0 = 0\nelo1 = 100'), async (page, data) => {
