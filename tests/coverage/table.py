@@ -1,19 +1,27 @@
 """table.py ROOT BUILD PROGRAM...: coverage of the rooms as a Markdown table, from gcov's counts in BUILD.
 
-A line counts once however many templates and units hold it, and is run when one of them runs it. A branch is a way
-that a condition of the source can go; those that only an exception takes are left out (gcov marks them), for nearly every
-call has one. What is compiled into no test program is not seen: headers without code, and rooms that no PROGRAM links.
+A line counts once however many templates and units hold it, and is run when one of them runs it; one that is only a
+brace does not count, for what the compiler puts there is what an exception destroys. A branch is a way
+that a condition of the source can go. The compiler has more of them, which do not count: calls that may throw go to the
+next line or to a handler, and ends of blocks ask what there is to destroy. (Where a condition itself makes temporaries,
+what asks whether to destroy them is not told apart and counts.) What no unit of the build compiles is not seen:
+templates that nobody uses.
 """
 
 import collections
+import functools
 import json
 import os
 import pathlib
+import re
 import subprocess
 import sys
 
 ROOMS = ["physics", "rules", "protocol", "server/settings", "server/storage", "server/match", "server/tournament",
-         "server/ledger", "server/ratings", "server/meter", "server/web", "server/net"]
+         "server/ledger", "server/ratings", "server/meter", "server/web", "server/net", "server/app"]
+
+CONDITION = re.compile(r"\b(if|for|while|switch)\b|\?|&&|\|\||==|!=")
+DEFAULTED = re.compile(r"= default;")
 
 
 def room_of(path):
@@ -25,10 +33,10 @@ def room_of(path):
 def counts_of(root, build):
     """file -> {"lines": {line: count}, "branches": {(line, index): count}}"""
     files = collections.defaultdict(lambda: {"lines": collections.Counter(), "branches": collections.Counter()})
-    # Clang and gcc follow the rooms' links: a source has one name, whichever way it was included.
-    for data in sorted(pathlib.Path(build).rglob("*.gcda")):
-        said = subprocess.run(["gcov", "--json-format", "--stdout", "--branch-probabilities", str(data.resolve())],
-                              capture_output=True, cwd=build, check=True).stdout
+    for notes in sorted(pathlib.Path(build).rglob("*.gcno")):
+        # Where there are no counts beside the notes, nothing of the unit was run: gcov says so.
+        said = subprocess.run(["gcov", "--json-format", "--stdout", "--branch-probabilities", str(notes.resolve())],
+                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=build, check=True).stdout
         for line in said.splitlines():
             for source in json.loads(line)["files"]:
                 add_file(files, root, build, source)
@@ -36,17 +44,47 @@ def counts_of(root, build):
 
 
 def add_file(files, root, build, source):
+    # The compiler follows the rooms' links: a source has one name, whichever way it was included.
     path = os.path.realpath(os.path.join(build, source["file"]))
     if not path.startswith(root + os.sep):
         return
     name = os.path.relpath(path, root)
     if room_of(name) is None:
         return
+    texts, conditions = texts_of(path), conditions_of(path)
     for line in source["lines"]:
         number = line["line_number"]
+        if number not in texts:
+            continue
         files[name]["lines"][number] += line["count"]
-        for index, branch in enumerate(b for b in line["branches"] if not b["throw"]):
-            files[name]["branches"][number, index] += branch["count"]
+        if number in conditions:
+            for index, count in enumerate(ways_of(line["branches"])):
+                files[name]["branches"][number, index] += count
+
+
+@functools.cache
+def texts_of(path):
+    """number -> line, of those in which a word stands."""
+    lines = pathlib.Path(path).read_text().splitlines()
+    return {number: text for number, text in enumerate(lines, 1) if re.search(r"\w", text)}
+
+
+@functools.cache
+def conditions_of(path):
+    """The numbers of the lines in which a condition stands."""
+    return {number for number, text in texts_of(path).items()
+            if CONDITION.search(text) and not DEFAULTED.search(text)}
+
+
+def ways_of(branches):
+    """The counts of a line's branches without calls that may throw: gcov names the handler after the next line."""
+    ways = []
+    for branch in branches:
+        if branch["throw"]:
+            ways.pop()
+        else:
+            ways.append(branch["count"])
+    return ways
 
 
 def share(hit, total):
@@ -68,30 +106,43 @@ def row(name, counters):
     return f"| {name} | {lines} | {share(lines_hit, lines)} | {branches} | {share(branches_hit, branches)} |"
 
 
-def main():
-    root, build, *programs = sys.argv[1:]
-    files = counts_of(os.path.realpath(root), os.path.realpath(build))
-    commit = subprocess.run(["git", "log", "-1", "--format=%h, %cs"], capture_output=True, text=True, cwd=root,
-                            check=True).stdout.strip()
-    print("# Coverage\n\nMade by `./pool coverage` on commit " + commit + ": the tests in a build without optimisation, "
-          "counted by gcov.\nPrograms: " + ", ".join(programs) + ".\n\n"
-          "A line counts once, whichever templates hold it; branches that only an exception takes are left out.\n")
+def print_rooms(files):
     print("| room | lines | run | branches | taken |\n|---|---|---|---|---|")
     for room in ROOMS:
         of_room = [counter for name, counter in files.items() if room_of(name) == room]
         if of_room:
             print(row(f"`{room}`", of_room))
+    of_server = [counter for name, counter in files.items() if name.startswith("server/")]
+    print(row("server in all", of_server))
     print(row("all", files.values()))
+
+
+def missed_lines(counter):
+    return sorted(number for number, count in counter["lines"].items() if not count)
+
+
+def print_worst(files):
     print("\n## Files with most lines that no test runs\n\n| file | lines | run | lines not run |\n|---|---|---|---|")
-    worst = sorted(files, key=lambda name: -sum(1 for count in files[name]["lines"].values() if not count))
-    for name in worst[:25]:
-        lines = files[name]["lines"]
-        missed = sorted(number for number, count in lines.items() if not count)
+    for name in sorted(files, key=lambda name: (-len(missed_lines(files[name])), name))[:25]:
+        lines, missed = len(files[name]["lines"]), missed_lines(files[name])
         if missed:
-            print(f"| `{name}` | {len(lines)} | {share(len(lines) - len(missed), len(lines))} | {ranges(missed)} |")
+            print(f"| `{name}` | {lines} | {share(lines - len(missed), lines)} | {ranges(missed)} |")
+
+
+def main():
+    root, build, *programs = sys.argv[1:]
+    files = counts_of(os.path.realpath(root), os.path.realpath(build))
+    commit = subprocess.run(["git", "log", "-1", "--format=%h, %cs"], capture_output=True, text=True, cwd=root,
+                            check=True).stdout.strip()
+    print("# Coverage\n\nMade by `./pool coverage` on commit " + commit + ": the rooms' tests in a build without "
+          "optimisation, counted by gcov.\nPrograms: " + ", ".join(programs) + ".\n\n"
+          "A line counts once, whichever templates hold it. A branch is a way that a condition can go; where a call "
+          "goes when it throws is left out.\n")
+    print_rooms(files)
     notes = pathlib.Path(root) / "tests/coverage/notes.md"
     if notes.exists():
         print("\n" + notes.read_text().rstrip())
+    print_worst(files)
 
 
 def ranges(numbers):

@@ -83,6 +83,19 @@ TEST(CheckState, RefusesTurnsThatDoNotFit) {
   state = row_state("8 shot");
   state.to_move = static_cast<Seat>(2);
   EXPECT_EQ(state_refusal(state), "/to_move");
+  state = row_state("8 shot");
+  state.breaker = static_cast<Seat>(2);
+  EXPECT_EQ(state_refusal(state), "/breaker");
+}
+
+TEST(CheckState, RefusesResultsThatAreNone) {
+  GameState state = row_state("8 shot");
+  state.result = GameResult{Seat::first, static_cast<EndReason>(99)};
+  EXPECT_EQ(state_refusal(state), "/result");
+  state.result = GameResult{static_cast<Seat>(2), EndReason::conceded};
+  EXPECT_EQ(state_refusal(state), "/result");
+  state.result = GameResult{std::nullopt, EndReason::stalemate};
+  EXPECT_EQ(state_refusal(state), "");
 }
 
 TEST(CheckState, RefusesCountersAndSettingsOutOfRange) {
@@ -132,6 +145,12 @@ TEST(CheckSettings, WantsATableThatARackFitsOn) {
   table = row_table();
   table.pockets = physics::NoPockets{};
   EXPECT_FALSE(check_settings({}, table, row_materials()));
+}
+
+TEST(CheckSettings, NamesTheNumberThatIsOutOfRange) {
+  const auto checked = check_settings({.rack_gap = 1}, row_table(), row_materials());
+  ASSERT_FALSE(checked);
+  EXPECT_EQ(checked.error().field, "/rack_gap");
 }
 
 std::string log_refusal(const std::string& state, const physics::EventLog<double>& log) {
@@ -195,6 +214,24 @@ TEST(Judge, RefusesEventsWithoutForm) {
       "bad_event_log /events/1/after/0");
   EXPECT_EQ(changed([](auto& log) { log[2].after[0].state = physics::MotionState::pocketed; }),
             "bad_event_log /events/2/after/0/state");
+}
+
+TEST(Judge, RefusesAPocketedBallThatStillMovesOrIsInNoPocket) {
+  const auto log = row_log(row_state("8 shot"), "0>3 3@foot_left");
+  auto moves = log;
+  moves[2].after[0].state = physics::MotionState::rolling;
+  EXPECT_EQ(log_refusal("8 shot", moves), "bad_event_log /events/2/after/0/state");
+  auto nowhere = log;
+  nowhere[2].pocket = static_cast<PocketId>(6);
+  EXPECT_EQ(log_refusal("8 shot", nowhere), "bad_event_log /events/2/pocket");
+}
+
+TEST(Judge, RefusesAPocketThatIsNone) {
+  const Call call{Call::Kind::pocket, BallId{3}, static_cast<PocketId>(6)};
+  const auto ruling = judge(row_state("8 shot"), call, good_log(), row_table(), row_materials());
+  ASSERT_FALSE(ruling);
+  EXPECT_EQ(ruling.error().code, RefusalCode::bad_call);
+  EXPECT_EQ(ruling.error().field, "/call/pocket");
 }
 
 TEST(Judge, RefusesALogOfAnotherState) {
