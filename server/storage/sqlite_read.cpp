@@ -380,15 +380,16 @@ void Columns::texts(TurnRecord& turn) {
   }
   if (skip_null()) {
     if (events.has_value() != turn.shot.has_value())
-      fail("the texts, or the events of a shot and of nothing else");
+      fail("the turn's texts, here or each in its own column");
     if (turn.shot)
       turn.shot->events = *events;
     return;
   }
   const bool is_alone =
       turn.state_before.empty() && turn.state_after.empty() && !turn.ruling && !events;
-  if (!is_alone || !unpack_texts(bytes(), turn))
-    fail("the texts of the turn, and nowhere else");
+  const std::string packed = bytes();
+  if (!is_alone || !unpack_texts(packed, turn))
+    fail("the turn's texts, and nothing in their own columns");
 }
 
 }  // namespace poolhall::storage

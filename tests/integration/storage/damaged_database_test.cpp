@@ -70,7 +70,9 @@ TEST_F(DamagedDatabase, NamesTheValueOfATurnThatCannotBe) {
        {"reason = 'tired'", "reason: got tired, expected the name of an end reason"},
        {"refusals = 4294967296", "refusals: got 4294967296, expected a count"},
        {"checksum = x'00'", "expected 32 bytes"},
-       {"events = NULL", "events: got null, expected the events of the shot"},
+       {"texts = NULL", "texts: got null, expected the turn's texts, here or each in its own"},
+       {"texts = x'00'", "texts: got 1 bytes, expected the turn's texts"},
+       {"ruling = '{}'", "bytes, expected the turn's texts, and nothing in their own columns"},
        {"shared = 2", "shared: got 2, expected 1 in a shot with shared deviates, else null"}},
       [this] { return owner_->turn(GameId{1}, 1); });
 }
@@ -97,7 +99,7 @@ TEST_F(DamagedDatabase, NamesTheValueOfAShotThatCannotBe) {
 TEST_F(DamagedDatabase, NamesAPartOfAShotInATurnWithoutOne) {
   expect_named("turns", "game = 2",
                {{"moved = 1", "moved: got 1, expected null in a turn without a shot"},
-                {"events = '[]'", "events: got [], expected null in a turn without a shot"},
+                {"texts = NULL, events = '[]'", "texts: got null, expected the turn's texts"},
                 {"shared = 1", "shared: got 1, expected 1 in a shot with shared deviates"}},
                [this] { return owner_->turn(GameId{2}, 1); });
 }
