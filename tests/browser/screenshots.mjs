@@ -11,9 +11,22 @@ import { program, root, startServer, temporaryDirectory } from './program.mjs';
 const folder = process.argv[2] ?? join(root, 'docs/screenshots');
 const directory = temporaryDirectory();
 mkdirSync(folder, { recursive: true });
-execFileSync(program, ['tournament', 'run', join(root, 'config/tournaments/demo.toml'),
+const play = (file) => execFileSync(program, ['tournament', 'run', file, '--http', '127.0.0.1:0',
   '--db', join(directory.path, 'page.db')], { stdio: 'ignore' });
+play(join(root, 'config/tournaments/demo.toml'));
+play(join(root, 'config/tournaments/sprt.toml'));
+play(cup());
 const [server, browser] = await Promise.all([startServer(directory.path), Chromium.start()]);
+
+/** A double elimination of eight of different effort. */
+function cup() {
+  const entries = [1200, 800, 400, 200, 100, 50, 25].map((effort) =>
+    `[[entry]]\nname = "greedy-${effort}"\nhouse = "greedy"\noptions = {effort = ${effort}}\n`);
+  const file = join(directory.path, 'cup.toml');
+  writeFileSync(file, `name = "double"\nformat = "double_elimination"\ngames_per_match = 4\nseed = 11\n`
+    + `max_concurrent_games_per_entry = 2\n${entries.join('')}[[entry]]\nhouse = "random"\n`);
+  return file;
+}
 
 /** A game of the two that can play, with the most turns: there is something to see in it. */
 async function longGame() {
@@ -41,7 +54,11 @@ try {
   await picture('tournaments', '/', 'tournaments/', { width: 1280, height: 420 });
   await picture('tournament', '/tournaments/demo', 'tournaments/demo', { width: 1280, height: 1000 });
   await picture('game', `/games/${game}/shots/1?t=0.55`, `games/${game}`, wide);
-  await picture('phone', `/games/${game}/shots/2?t=0.5`, `games/${game}`, { width: 390, height: 800, touch: true });
+  const phone = { width: 390, height: 844, touch: true };
+  await picture('phone', `/games/${game}/shots/2?t=0.5`, `games/${game}`, phone);
+  await picture('phone-bracket', '/tournaments/double', 'tournaments/double', phone);
+  await picture('bracket', '/tournaments/double', 'tournaments/double', { width: 1280, height: 1000, scheme: 'light' });
+  await picture('sprt', '/tournaments/sprt', 'tournaments/sprt', { width: 1280, height: 700 });
   await picture('agents', '/agents', 'agents/', { width: 1280, height: 560 });
   await picture('workbench', '/workbench', 'workbench/', { width: 1280, height: 900 }, (page) => page.evaluate(async () => {
     const { view } = window.poolhall;
