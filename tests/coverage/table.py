@@ -9,6 +9,7 @@ templates that nobody uses.
 """
 
 import collections
+import concurrent.futures
 import functools
 import json
 import os
@@ -33,14 +34,19 @@ def room_of(path):
 def counts_of(root, build):
     """file -> {"lines": {line: count}, "branches": {(line, index): count}}"""
     files = collections.defaultdict(lambda: {"lines": collections.Counter(), "branches": collections.Counter()})
-    for notes in sorted(pathlib.Path(build).rglob("*.gcno")):
-        # Where there are no counts beside the notes, nothing of the unit was run: gcov says so.
-        said = subprocess.run(["gcov", "--json-format", "--stdout", "--branch-probabilities", str(notes.resolve())],
-                              stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=build, check=True).stdout
-        for line in said.splitlines():
-            for source in json.loads(line)["files"]:
-                add_file(files, root, build, source)
+    units = sorted(pathlib.Path(build).rglob("*.gcno"))
+    with concurrent.futures.ThreadPoolExecutor(os.cpu_count()) as pool:
+        for said in pool.map(lambda unit: gcov(unit, build), units):
+            for line in said.splitlines():
+                for source in json.loads(line)["files"]:
+                    add_file(files, root, build, source)
     return files
+
+
+def gcov(unit, build):
+    # Where there are no counts beside the unit's notes, nothing of it was run: gcov says so.
+    return subprocess.run(["gcov", "--json-format", "--stdout", "--branch-probabilities", str(unit.resolve())],
+                          stdout=subprocess.PIPE, stderr=subprocess.DEVNULL, cwd=build, check=True).stdout
 
 
 def add_file(files, root, build, source):
