@@ -28,6 +28,8 @@ constexpr std::size_t flood_lines = 20'000;
 constexpr std::size_t unread_lines = 400;
 constexpr std::size_t unread_line_bytes = 32'000;
 constexpr int others_games = 60;
+constexpr int slow_line_bytes = 60;
+constexpr milliseconds slow_line{6'000};
 
 // A blocking socket without manners.
 class Rude {
@@ -180,9 +182,9 @@ BadVisit resets_in_mid_line(std::uint16_t port, EndLog&) {
 BadVisit drips(std::uint16_t port, EndLog&) {
   Rude rude(port);
   const std::string line = hello_line();
-  for (const char byte : line.substr(0, 60)) {
+  for (const char byte : line.substr(0, slow_line_bytes)) {
     rude.push({&byte, 1});
-    std::this_thread::sleep_for(milliseconds{15});
+    std::this_thread::sleep_for(slow_line / slow_line_bytes);
   }
   return ended_with(rude, "too_slow");
 }
@@ -471,8 +473,9 @@ const std::vector<BadClient>& bad_clients() {
 
 protocol::Limits limits_for_bad_clients() {
   protocol::Limits limits;
-  limits.login_deadline = milliseconds{2'000};
-  limits.line_deadline = milliseconds{500};
+  // Long enough for the others where the machine is full.
+  limits.login_deadline = milliseconds{6'000};
+  limits.line_deadline = slow_line / 2;
   limits.output_queue_bytes = 1024 * 1024;
   limits.input_bytes_per_second = 64 * 1024 * 1024;
   limits.message_burst = 1'000;

@@ -14,7 +14,7 @@
 namespace poolhall::fault {
 namespace {
 
-constexpr std::chrono::seconds log_patience{30};
+constexpr std::chrono::seconds log_patience{60};
 
 }  // namespace
 
