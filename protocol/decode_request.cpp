@@ -19,15 +19,6 @@ std::size_t characters(std::string_view text) {
   return count;
 }
 
-template <class Id>
-Id read_id(const JsonNode& node) {
-  return Id{node.integer<std::int64_t>(1)};
-}
-
-std::uint32_t read_turn(const JsonNode& node) {
-  return node.integer<std::uint32_t>(1);
-}
-
 std::string read_name(const JsonNode& node, const Limits& limits) {
   std::string name = node.string();
   if (!is_agent_name(name, limits)) {
@@ -112,7 +103,7 @@ Register read_register(const JsonNode& params, const Limits& limits) {
   return request;
 }
 
-ClockSettings read_clock(const JsonNode& node) {
+ClockSettings read_asked_clock(const JsonNode& node) {
   ClockSettings clock;
   clock.game_ms = node.at("game_ms").integer<std::int64_t>(1, day_ms);
   if (const auto increment = node.find("increment_ms")) {
@@ -153,7 +144,7 @@ Challenge read_challenge(const JsonNode& params, const Limits& limits) {
     }
   }
   if (const auto clock = params.find("clock")) {
-    challenge.clock = read_clock(*clock);
+    challenge.clock = read_asked_clock(*clock);
   }
   if (const auto id = params.find("challenge_id")) {
     challenge.challenge_id = read_shot_id(*id, limits);

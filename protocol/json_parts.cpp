@@ -2,6 +2,10 @@
 
 namespace poolhall::protocol {
 
+std::uint32_t read_turn(const JsonNode& node) {
+  return node.integer<std::uint32_t>(1);
+}
+
 physics::BallId read_ball_id(const JsonNode& node) {
   return physics::BallId{node.integer<std::uint8_t>(0, physics::max_balls - 1)};
 }

@@ -22,6 +22,11 @@
 namespace poolhall::protocol {
 
 // Ids and seats.
+template <class Id>
+[[nodiscard]] Id read_id(const JsonNode& node) {
+  return Id{node.integer<std::int64_t>(1)};
+}
+[[nodiscard]] std::uint32_t read_turn(const JsonNode& node);
 [[nodiscard]] physics::BallId read_ball_id(const JsonNode& node);
 [[nodiscard]] rules::Seat read_seat(const JsonNode& node);
 [[nodiscard]] physics::PocketId read_pocket(const JsonNode& node);

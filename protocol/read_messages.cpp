@@ -7,18 +7,9 @@
 namespace poolhall::protocol {
 namespace {
 
-template <class Id>
-Id read_id(const JsonNode& node) {
-  return Id{node.integer<std::int64_t>(1)};
-}
-
 std::optional<TournamentId> read_tournament(const JsonNode& node) {
   const auto id = node.find("tournament");
   return id ? std::optional(read_id<TournamentId>(*id)) : std::nullopt;
-}
-
-std::uint32_t read_turn(const JsonNode& node) {
-  return node.at("turn").integer<std::uint32_t>(1);
 }
 
 std::optional<std::int64_t> read_milliseconds(const JsonNode& node, std::string_view key) {
@@ -91,7 +82,7 @@ Legal read_legal(const JsonNode& node) {
 template <class Message>
 void read_move(const JsonNode& node, Message& message) {
   message.game = read_id<GameId>(node.at("game"));
-  message.turn = read_turn(node);
+  message.turn = read_turn(node.at("turn"));
   message.by = read_seat(node.at("by"));
 }
 
@@ -121,7 +112,7 @@ GameSnapshot<Received> read_snapshot(const JsonNode& node) {
 GameTurn<Received> read_game_turn(const JsonNode& node) {
   GameTurn<Received> turn;
   turn.game = read_id<GameId>(node.at("game"));
-  turn.turn = read_turn(node);
+  turn.turn = read_turn(node.at("turn"));
   turn.kind = read_turn_kind(node.at("kind"));
   turn.state = read_state(node.at("state"));
   turn.clock = read_clock(node.at("clock"));

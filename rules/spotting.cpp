@@ -12,7 +12,6 @@ namespace {
 
 using physics::Vec2;
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 struct Obstacle {
   Vec2<double> centre;
@@ -43,7 +42,7 @@ std::optional<double> place_behind(const Obstacle& obstacle, double x, double di
   const double along = std::sqrt(obstacle.reach * obstacle.reach - across * across);
   double y = obstacle.centre.y + direction * along;
   while (length(Vec2<double>{x, y} - obstacle.centre) < obstacle.reach) {
-    y = std::nextafter(y, direction * infinity);
+    y = std::nextafter(y, direction * std::numeric_limits<double>::infinity());
   }
   return y;
 }

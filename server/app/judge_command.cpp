@@ -14,8 +14,6 @@
 namespace poolhall::app {
 namespace {
 
-constexpr int not_done = 1;
-
 int judge_one(const std::string& source, const std::string& text) {
   const auto answer = protocol::judge_document(text);
   if (!answer) {
@@ -43,7 +41,7 @@ int run_judge(const std::string& source) {
   std::cout.flush();
   if (!std::cout) {
     std::cerr << "judge: cannot write the ruling\n";
-    return not_done;
+    return failed;
   }
   return code;
 }

@@ -19,8 +19,6 @@
 namespace poolhall::app {
 namespace {
 
-constexpr int not_done = 1;
-
 struct SimulateArguments {
   std::string scene;
   std::string svg;
@@ -64,7 +62,7 @@ int write_svg(const std::string& path, const SceneOutcome& outcome) {
   out.close();
   if (!out) {
     std::cerr << "--svg: cannot write " << path << '\n';
-    return not_done;
+    return failed;
   }
   return done;
 }
@@ -127,7 +125,7 @@ int run_simulate(const SimulateArguments& arguments) {
   std::cout.flush();
   if (!std::cout) {
     std::cerr << "simulate: cannot write the result\n";
-    return not_done;
+    return failed;
   }
   return code;
 }

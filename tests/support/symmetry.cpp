@@ -9,7 +9,7 @@ using namespace physics;
 
 namespace {
 
-constexpr double endless = std::numeric_limits<double>::infinity();
+constexpr double unlike = std::numeric_limits<double>::infinity();
 
 Ball<double> seen(Ball<double> ball, const Table& table, Symmetry how) {
   // An angular velocity is an axial vector: of a mirrored one, what lies along the mirror turns
@@ -66,7 +66,7 @@ double image_distance(const Simulation<double>& original, const Simulation<doubl
         std::find_if(image.balls.begin(), image.balls.end(),
                      [&there](const Ball<double>& other) { return other.id == there.id; });
     if (found == image.balls.end() || found->pocket.has_value() != ball.pocket.has_value()) {
-      return endless;
+      return unlike;
     }
     if (!ball.pocket) {
       most = std::max(most, length(found->position - there.position));
@@ -82,12 +82,12 @@ double amplification(const Scene<double>& scene, const SimulationOptions& option
   const auto one = simulate(scene, options);
   const auto other = simulate(moved, options);
   if (!one || !other || one->events.size() != other->events.size()) {
-    return endless;
+    return unlike;
   }
   double most = shift;
   for (std::size_t i = 0; i < scene.balls.count; ++i) {
     if (one->balls[i].pocket.has_value() != other->balls[i].pocket.has_value()) {
-      return endless;
+      return unlike;
     }
     if (!one->balls[i].pocket) {
       most = std::max(most, length(one->balls[i].position - other->balls[i].position));

@@ -7,8 +7,8 @@
 #include <random>
 #include <string>
 
-#include "../../unit/tournament/random_swiss.hpp"
-#include "../../unit/tournament/swiss_oracle.hpp"
+#include "../../unit/swiss/random_swiss.hpp"
+#include "../../unit/swiss/swiss_oracle.hpp"
 #include "server/tournament/matching.hpp"
 
 namespace poolhall::tournament {
