@@ -5,11 +5,7 @@
 namespace poolhall::physics {
 namespace {
 
-Materials olympiad() {
-  return {};
-}
-
-const Coefficients<double> c = coefficients<double>(olympiad());
+const Coefficients<double> c = coefficients<double>(Materials{});
 
 Ball<double> ball_with(Vec2<double> v, Vec3<double> w) {
   Ball<double> ball;
