@@ -1,5 +1,6 @@
 #include "server/storage/checkpointer.hpp"
 
+#include <spdlog/spdlog.h>
 #include <sqlite3.h>
 
 #include <algorithm>
@@ -29,12 +30,18 @@ Checkpointer::Checkpointer(std::unique_ptr<SqliteConnection> connection, Checkpo
     : connection_(std::move(connection)), options_(options), thread_([this] { run(); }) {}
 
 Checkpointer::~Checkpointer() {
+  static_cast<void>(stop_and_tell_whether_log_stays());
+}
+
+bool Checkpointer::stop_and_tell_whether_log_stays() {
   {
     const std::lock_guard lock(mutex_);
     stopping_ = true;
     changed_.notify_all();
   }
-  thread_.join();
+  if (thread_.joinable())
+    thread_.join();
+  return disk_has_failed_;
 }
 
 void Checkpointer::log_has(int pages) {
@@ -62,13 +69,13 @@ void Checkpointer::end_writing() {
 void Checkpointer::run() {
   std::unique_lock lock(mutex_);
   for (;;) {
-    changed_.wait(lock, [this] { return due_ || stopping_; });
+    changed_.wait(lock, [this] { return (due_ && !disk_has_failed_) || stopping_; });
     if (stopping_)
       return;
     lock.unlock();
     const bool moved = move_and_begin_anew();
     lock.lock();
-    if (!moved)
+    if (!moved && !disk_has_failed_)
       changed_.wait_for(lock, pause_after_failure, [this] { return stopping_; });
     due_ = false;
   }
@@ -78,7 +85,8 @@ bool Checkpointer::move_and_begin_anew() {
   Move last = move_to_disk();
   if (last.is_whole() && last.in_log >= options_.log_pages && !disk_has_failed_) {
     static_cast<void>(move_to_disk());  // so that little is left
-    last = move_while_writers_wait();
+    if (!disk_has_failed_)
+      last = move_while_writers_wait();
   }
   moved_ = std::max(last.moved, 0);
   return last.is_whole();
@@ -101,11 +109,20 @@ Checkpointer::Move Checkpointer::move_to_disk() {
   sqlite3_file* file = nullptr;
   sqlite3_file_control(connection_->raw().getHandle(), "main", SQLITE_FCNTL_FILE_POINTER,
                        static_cast<void*>(&file));
-  // What a failed call leaves behind no later one tells: the log has to keep it.
   if (file == nullptr || file->pMethods == nullptr ||
       file->pMethods->xSync(file, SQLITE_SYNC_NORMAL | SQLITE_SYNC_DATAONLY) != SQLITE_OK)
-    disk_has_failed_ = true;
+    keep_log();
   return done;
+}
+
+// The system forgets what it could not write, and the next fsync knows nothing of it.
+void Checkpointer::keep_log() {
+  disk_has_failed_ = true;
+  connection_->keep_log_at_close();
+  spdlog::error(
+      "{}: it could not be brought to the disk. All that is stored from now on stays in {}-wal "
+      "beside it: keep both files together, and look after the disk",
+      connection_->file(), connection_->file());
 }
 
 Checkpointer::Move Checkpointer::move() {

@@ -10,7 +10,8 @@
 // A log that grows all the time is never moved as a whole, and so never begun anew. Therefore, when
 // it has become long, the last little is moved while the writer waits for its turn. SQLite brings
 // the database file to the disk only then; so each move before does it by itself, or all of it
-// would be left to the moment for which the writer waits.
+// would be left to the moment for which the writer waits. Should the disk refuse that, nothing is
+// moved any more and the log is never begun anew: the next start reads all of it.
 #pragma once
 
 #include <atomic>
@@ -42,6 +43,10 @@ class Checkpointer {
   void begin_writing();
   void end_writing();
 
+  // Ends the thread. True if the database file could not be brought to the disk: what was moved
+  // into it may be lost, so that the log has to stay, whoever closes it.
+  [[nodiscard]] bool stop_and_tell_whether_log_stays();
+
  private:
   Checkpointer(std::unique_ptr<SqliteConnection> connection, CheckpointOptions options);
   // How much a move has found in the log, and how much of that is in the database file now, in
@@ -56,11 +61,12 @@ class Checkpointer {
   [[nodiscard]] bool move_and_begin_anew();
   [[nodiscard]] Move move();
   [[nodiscard]] Move move_to_disk();
+  void keep_log();
   [[nodiscard]] Move move_while_writers_wait();
 
   std::unique_ptr<SqliteConnection> connection_;
   CheckpointOptions options_;
-  bool disk_has_failed_ = false;  // the thread's alone
+  bool disk_has_failed_ = false;  // the thread's alone while it runs
   std::atomic<int> moved_ = 0;    // by the last move
   std::mutex mutex_;              // of what follows
   std::condition_variable changed_;

@@ -190,6 +190,10 @@ void SqliteConnection::on_log_growth(std::function<void(int)> told) {
   sqlite3_wal_hook(database_.getHandle(), call, this);
 }
 
+void SqliteConnection::keep_log_at_close() {
+  sqlite3_db_config(database_.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+}
+
 SqliteConnection::Use SqliteConnection::prepared(const std::string& sql) {
   auto found = statements_.find(sql);
   if (found == statements_.end())

@@ -56,6 +56,8 @@ class SqliteConnection {
   // Calls this after each commit with the number of pages in the write-ahead log, instead of moving
   // them into the database file now and then.
   void on_log_growth(std::function<void(int)> told);
+  // Leaves the write-ahead log as it is when this connection is closed as the last one.
+  void keep_log_at_close();
 
   template <class F>
   [[nodiscard]] auto guarded(F&& work) -> Expected<std::invoke_result_t<F>> {

@@ -30,6 +30,10 @@ class SqliteDatabase final : public Database {
         checkpointer_(std::move(checkpointer)) {
     connection_->on_log_growth([this](int pages) { checkpointer_->log_has(pages); });
   }
+  ~SqliteDatabase() override {
+    if (checkpointer_ && checkpointer_->stop_and_tell_whether_log_stays())
+      connection_->keep_log_at_close();
+  }
 
   Expected<Counters> counters() override;
   Expected<std::vector<AgentRecord>> agents() override;

@@ -8,6 +8,7 @@
 #include <memory>
 #include <regex>
 #include <string>
+#include <thread>
 
 #include "program.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -17,7 +18,7 @@ namespace {
 
 using testing::HasSubstr;
 
-constexpr std::chrono::minutes patience{2};
+constexpr std::chrono::minutes patience{10};
 
 const std::string four_bots =
     "name = \"cup\"\nformat = \"swiss\"\nrounds = 2\ngames_per_match = 2\nseed = 3\n"
@@ -85,6 +86,7 @@ TEST_F(TournamentCalls, ATournamentIsCreatedStartedPausedAndPlayedToItsTable) {
   const auto until = std::chrono::steady_clock::now() + patience;
   std::string status;
   while (status.find("finished") == std::string::npos && std::chrono::steady_clock::now() < until) {
+    std::this_thread::sleep_for(std::chrono::milliseconds{300});
     status = at_server({"status", "cup"}).text;
   }
   EXPECT_THAT(status, HasSubstr("Tournament cup: finished, swiss, 4 entries\n4 of 4 matches over"));

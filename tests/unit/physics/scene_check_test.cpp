@@ -112,6 +112,13 @@ TEST(CheckScene, RefusesABallThatIsThereTwice) {
   EXPECT_EQ(refusal(scene).fault, Fault::duplicate_ball);
 }
 
+TEST(CheckScene, RefusesABallBeyondFifteen) {
+  Scene<double> scene = scene_with();
+  scene.balls[1].id = BallId{16};
+  EXPECT_EQ(refusal(scene).field, "/balls/1/id");
+  EXPECT_EQ(refusal(scene).fault, Fault::out_of_range);
+}
+
 TEST(CheckScene, AShotNeedsACueBall) {
   Scene<double> scene = scene_with();
   scene.shot = cue_shot_from_degrees(0.0, 0.0, 10.0, 90.0, 2.0);

@@ -150,6 +150,11 @@ TEST(DecodeRequest, NamesTheFieldOfABadHello) {
   EXPECT_EQ(refused("hello", R"({"protocol":[2,1],"name":"b"})").field, "/params/protocol/1");
   EXPECT_EQ(refused("hello", R"({"protocol":[1,1],"name":"b","detail":"x"})").field,
             "/params/detail");
+  const std::string client = R"({"protocol":[1,1],"name":"b","client":{"name":")";
+  EXPECT_TRUE(
+      decode_request(line("hello", client + std::string(64, 'c') + R"("}})"), default_limits));
+  EXPECT_EQ(refused("hello", client + std::string(65, 'c') + R"("}})").field,
+            "/params/client/name");
 }
 
 TEST(DecodeRequest, TakesNamesOfOneTo32CharactersOnly) {

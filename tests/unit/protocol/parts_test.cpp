@@ -199,6 +199,7 @@ TEST(TableJson, NamesTheFieldThatDoesNotFit) {
   EXPECT_EQ(field(R"({"width":1,"length":2,"pockets":"some"})"), "/pockets");
   EXPECT_EQ(field(R"({"width":1,"length":2,"pockets":{"kind":"mouth_lines","corner":1}})"),
             "/pockets/side");
+  EXPECT_EQ(field(R"({"width":1,"length":2,"pockets":{"kind":"holes"}})"), "/pockets/kind");
   EXPECT_EQ(field(R"({"width":1,"length":2,"pockets":"none","colour":"green"})"), "/colour");
 }
 

@@ -2,6 +2,9 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdio>
+#include <fstream>
+
 namespace poolhall::settings {
 namespace {
 
@@ -165,7 +168,31 @@ TEST(TournamentSettings, AFormatSaysWhatItAsksOfRoundsAndEntries) {
   EXPECT_THAT(
       tournament_refusal(sprt + "rounds = 9\n" + two_entries + "[[entry]]\nagent = \"Anna\"\n"),
       HasSubstr("entry: 3 came, expected 2"));
+  EXPECT_THAT(tournament_refusal(sprt + "rounds = 9\nmirrored = \"none\"\ngames_per_match = 3\n" +
+                                 two_entries),
+              HasSubstr("games_per_match: 3 came, expected an even number: an SPRT"));
   EXPECT_EQ(tournament_refusal(sprt + "rounds = 9\n" + two_entries), "accepted");
+}
+
+TEST(TournamentSettings, WordsStandForWhatIsMirroredAndUntilWhenAgentsMayEnter) {
+  const auto with = [](const std::string& line) {
+    return parse_tournament("name = \"cup\"\n" + line + "\n" + two_entries, "t.toml").value();
+  };
+  EXPECT_EQ(with("mirrored = \"rack\"").mirrored, MirroredGames::rack);
+  EXPECT_EQ(with("mirrored = \"noise\"").mirrored, MirroredGames::noise);
+  EXPECT_EQ(with("mirrored = \"none\"").mirrored, MirroredGames::none);
+  EXPECT_EQ(with("join = \"never\"").join, Joining::never);
+  EXPECT_EQ(with("join = \"start\"").join, Joining::start);
+  EXPECT_EQ(with("join = \"late\"").join, Joining::late);
+}
+
+TEST(TournamentSettings, AFileOfMoreThanAMebibyteIsNotRead) {
+  const std::string file = testing::TempDir() + "/too_long.toml";
+  std::ofstream(file) << "name = \"cup\"\n" << two_entries << std::string(1 << 20, '\n');
+  const auto settings = load_tournament(file);
+  std::remove(file.c_str());
+  ASSERT_FALSE(settings);
+  EXPECT_THAT(text(settings.error()), HasSubstr("longer than 1048576 bytes"));
 }
 
 TEST(TournamentSettings, OptionsThatAreNoWordsOfACommandLineAreRefused) {
