@@ -15,8 +15,8 @@
 namespace poolhall::storage {
 namespace {
 
-// As long as it lives, database files that are opened fail to be brought to the disk once it has
-// been told so.
+// As long as it lives, database files that are opened fail to be brought to the disk: once, when it
+// has been told so. As with Linux, the next fsync knows nothing of what the failed one left.
 class FailingDisk {
  public:
   FailingDisk() : system_(sqlite3_vfs_find(nullptr)), failing_(*system_) {
@@ -50,7 +50,7 @@ class FailingDisk {
     return code;
   }
   static int sync(sqlite3_file* file, int flags) {
-    if (!fails) {
+    if (!fails.exchange(false)) {
       return real_methods->xSync(file, flags);
     }
     ++refused;
