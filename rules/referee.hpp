@@ -65,7 +65,7 @@ enum class FoulCode : std::uint8_t {
 [[nodiscard]] std::optional<FoulCode> foul_code(std::string_view name);
 
 struct FoulRecord {
-  FoulCode code;
+  FoulCode code{};
   std::string rule;                    // clause of rules/README.md, such as "8.6"
   std::string text;                    // in words, for a person
   std::optional<std::size_t> event{};  // index into the event log

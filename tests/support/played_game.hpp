@@ -116,7 +116,7 @@ class PlayedGame {
     const rules::GameState& state = game_.state();
     game_.begin_turn(now_);
     if (state.kind == rules::TurnKind::decision) {
-      const auto choice = static_cast<std::size_t>(below(state.options.size()));
+      const auto choice = below(state.options.size());
       return game_.decide(state.to_move, {game_.record().id, state.turn, state.options[choice]},
                           arrival());
     }

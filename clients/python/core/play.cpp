@@ -200,7 +200,8 @@ py::tuple rehearse(const GameState& state, const py::sequence& moves, const py::
   for (std::size_t i = 0; i < moves.size(); ++i) {
     list.push_back(read_move(moves[i], "/moves/" + std::to_string(i)));
   }
-  const GameState before = state;  // nobody else's while the lock is away
+  // Nobody else's while the lock is away.
+  const GameState before = state;  // NOLINT(performance-unnecessary-copy-initialization)
   std::vector<std::optional<tl::expected<Chances, Refused>>> results(list.size());
   for_each_index(list.size(), thread_count(threads), [&](std::size_t i, const Stop& stop) {
     results[i] = rehearsed(before, list[i], drawn, play_table, stop);

@@ -54,7 +54,7 @@ std::unique_ptr<SimulationResult> simulate(py::object balls, py::object shot, py
   return played(std::move(scene));
 }
 
-py::list simulate_many(py::object balls, const py::object& shots, py::object table,
+py::list simulate_many(const py::object& balls, const py::object& shots, const py::object& table,
                        unsigned threads, py::object t_max, std::uint32_t event_limit,
                        std::string_view contact, std::string_view solver) {
   const PlayTable& play = table_or_default(table);
@@ -282,8 +282,9 @@ py::array_t<double> positions_of(const Balls& balls, const Ball<double>* begin) 
   std::fill_n(data, 2 * rows, std::numeric_limits<double>::quiet_NaN());
   for (std::size_t i = 0; i < balls.set.count; ++i) {
     if (!begin[i].pocket) {
-      data[2 * balls.rows[i]] = begin[i].position.x;
-      data[2 * balls.rows[i] + 1] = begin[i].position.y;
+      const auto row = static_cast<std::size_t>(balls.rows[i]);
+      data[2 * row] = begin[i].position.x;
+      data[2 * row + 1] = begin[i].position.y;
     }
   }
   return out;

@@ -64,7 +64,9 @@ void expect_explained(const std::string& arguments) {
     }
   }
   for (const std::string& name : sub_commands(lines)) {
-    expect_explained(arguments.empty() ? name : arguments + " " + name);
+    std::string words = arguments;
+    words += words.empty() ? "" : " ";
+    expect_explained(words += name);
   }
 }
 

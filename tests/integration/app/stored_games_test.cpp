@@ -117,6 +117,47 @@ TEST_F(StoredGames, are_exported_with_their_keys_once_the_match_is_over) {
               HasSubstr("\"key\":\"01080f161d242b323940474e555c636a71787f868d949ba2a9b0b7bec5cc"));
 }
 
+TEST_F(StoredGames, are_taken_into_another_database_or_refused_at_their_line) {
+  end_match(file_);
+  ASSERT_EQ(run("export --db " + file_.string() + " --output " + at("games.jsonl")).exit_code, 0);
+  const Ran ran = run("import " + at("games.jsonl") + " --db " + at("other.db"));
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  EXPECT_THAT(ran.out, HasSubstr("2 agents, 0 tournaments, 1 matches, 1 games, 7 turns"));
+  EXPECT_EQ(run("verify --db " + at("other.db")).exit_code, 0);
+  std::ofstream(at("broken.jsonl")) << test_support::bytes_of(at("games.jsonl")).substr(0, 500);
+  const Ran broken = run("import " + at("broken.jsonl") + " --db " + at("third.db"));
+  EXPECT_EQ(broken.exit_code, 2);
+  EXPECT_THAT(broken.err, HasSubstr("broken.jsonl:"));
+  EXPECT_THAT(broken.err, HasSubstr("nothing was imported"));
+  EXPECT_EQ(run("import " + at("nowhere.jsonl") + " --db " + at("third.db")).exit_code, 2);
+}
+
+TEST_F(StoredGames, have_a_report_of_times_and_noise) {
+  const Ran secret = run("fairness 1 --db " + file_.string());
+  EXPECT_EQ(secret.exit_code, 0) << secret.err;
+  EXPECT_THAT(secret.out, HasSubstr("1 matches, 1 games"));
+  EXPECT_THAT(secret.out, testing::ContainsRegex("Anna +[1-9]"));
+  EXPECT_THAT(secret.out, HasSubstr("secret as yet in 1 matches"));
+  EXPECT_THAT(secret.out, HasSubstr("noise of 0 shots"));
+  end_match(file_);
+  const std::string shots =
+      RawSqlite(file_).text("SELECT count(*) FROM turns WHERE action = 'shot'");
+  EXPECT_THAT(run("fairness 1 --db " + file_.string()).out,
+              HasSubstr("noise of " + shots + " shots"));
+  EXPECT_THAT(run("fairness 7 --db " + file_.string()).err, HasSubstr("there is no match 7"));
+  EXPECT_THAT(run("fairness --tournament cup --db " + file_.string()).err,
+              HasSubstr("no matches of a tournament cup"));
+}
+
+TEST_F(StoredGames, are_drawn_shot_by_shot_on_one_sheet) {
+  const Ran ran = run("replay 1 --db " + file_.string() + " --svg " + at("game.svg"));
+  EXPECT_EQ(ran.exit_code, 0) << ran.err;
+  const std::string sheet = test_support::bytes_of(at("game.svg"));
+  EXPECT_THAT(sheet, HasSubstr("<svg"));
+  EXPECT_THAT(sheet, HasSubstr(">" + first_shot_ + " Anna<"));
+  EXPECT_THAT(sheet, HasSubstr("</svg>"));
+}
+
 // The program of docs/records.md, as it stands there.
 TEST_F(StoredGames, are_checked_by_the_program_of_the_page_of_records) {
   end_match(file_);

@@ -39,7 +39,7 @@ class TournamentCalls : public testing::Test {
     static const std::regex page("page on (127\\.0\\.0\\.1:\\d+)");
     std::smatch found;
     while (const auto line = server_->next_line()) {
-      const std::string text = *line;
+      const std::string& text = *line;
       if (std::regex_search(text, found, page)) {
         address_ = found[1];
         break;

@@ -44,7 +44,8 @@ Vec2<double> standard_place(unsigned n) {
   if (n == 0) {
     return {0.558, 0.8};
   }
-  return {0.158 + 0.2 * ((n - 1) % 5), 1.0 + 0.25 * ((n - 1) / 5)};
+  const unsigned row = (n - 1) / 5;
+  return {0.158 + 0.2 * ((n - 1) % 5), 1.0 + 0.25 * row};
 }
 
 GameState standard_state(RuleSet rules) {
@@ -145,8 +146,9 @@ Vec2<double> at_rail(RailId rail, const Vec2<double>& from) {
 
 Vec2<double> pocket_place(PocketId pocket) {
   const auto n = static_cast<unsigned>(pocket);
+  const unsigned row = n / 2;
   return {n % 2 == 0 ? 0.01 : row_table().width - 0.01,
-          0.01 + (row_table().length - 0.02) * 0.5 * (n / 2)};
+          0.01 + (row_table().length - 0.02) * 0.5 * row};
 }
 
 // Writes a log in which every ball rolls from one of its events to the next.
