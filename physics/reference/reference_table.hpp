@@ -13,7 +13,7 @@ namespace poolhall::physics::reference {
 struct Nose {
   Vec2<Number> from, to;
   Vec2<Number> inward;  // unit normal, into the table
-  RailId rail;
+  RailId rail{};
 };
 
 // A jaw's arc: met like a fixed ball of its radius.

@@ -36,7 +36,7 @@ class Counted {
   constexpr Counted() = default;
   constexpr Counted(double value) : value_(value) {}  // NOLINT: as numbers convert
 
-  [[nodiscard]] static OperationCount count() { return count_; }
+  [[nodiscard]] static OperationCount count() { return counted; }
 
   explicit constexpr operator double() const { return value_; }
   explicit constexpr operator long double() const { return value_; }
@@ -88,12 +88,12 @@ class Counted {
   // The compiler's own arithmetic is nobody's work.
   static constexpr void add(std::uint64_t OperationCount::*kind) {
     if (!std::is_constant_evaluated()) {
-      ++(count_.*kind);
+      ++(counted.*kind);
     }
   }
 
   double value_ = 0;
-  static inline OperationCount count_{};
+  static inline OperationCount counted{};
 };
 
 }  // namespace poolhall::bench

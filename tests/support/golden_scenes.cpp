@@ -113,15 +113,15 @@ std::uint64_t hash_evaluated() {
 }
 
 struct Golden {
-  const char* name;
-  const char* table;
-  const char* kind;
-  const Cushion* cushion;
-  int rows;  // of the rack
+  const char* name = nullptr;
+  const char* table = nullptr;
+  const char* kind = nullptr;
+  const Cushion* cushion = nullptr;
+  int rows = 0;  // of the rack
   SimulationOptions options;
-  std::uint64_t played;   // simulate
-  std::uint64_t plain;    // EventLoop<double>
-  std::uint64_t precise;  // EventLoop<double, Precise>
+  std::uint64_t played = 0;   // simulate
+  std::uint64_t plain = 0;    // EventLoop<double>
+  std::uint64_t precise = 0;  // EventLoop<double, Precise>
 };
 
 const Cushion spring = SpringCushion{};

@@ -165,7 +165,8 @@ class RandomGame {
   // Degrees; the heading to the ghost ball, from which `ball` goes to `pocket`'s corner.
   double aimed(const GameState& ready, BallId ball, physics::PocketId pocket) {
     const auto n = static_cast<unsigned>(pocket);
-    const Vec2<double> corner{n % 2 == 0 ? 0 : table_.width, table_.length * 0.5 * (n / 2)};
+    const unsigned row = n / 2;
+    const Vec2<double> corner{n % 2 == 0 ? 0 : table_.width, table_.length * 0.5 * row};
     const Vec2<double> object = find_ball(ready, ball)->position;
     const Vec2<double> way = corner - object;
     const double reach = 2 * materials_.ball_radius / std::sqrt(dot(way, way));

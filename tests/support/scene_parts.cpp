@@ -128,7 +128,7 @@ NamedScene runs(std::string name, std::string expected, Scene<double> scene, Che
   return {std::move(name), std::move(expected), std::move(scene), options, std::move(judge)};
 }
 
-NamedScene comes_as(std::string name, std::string events, Scene<double> scene,
+NamedScene comes_as(std::string name, const std::string& events, Scene<double> scene,
                     SimulationOptions options) {
   Check check = [events](const Simulation<double>& result) -> Finding {
     std::string found = sequence(result);
@@ -148,7 +148,7 @@ NamedScene ends(std::string name, Scene<double> scene, Ending ending, Simulation
 
 NamedScene is_refused(std::string name, Fault fault, std::string field, Scene<double> scene,
                       SimulationOptions options) {
-  std::string expected = refusal({fault, field, ""});
+  std::string expected = refusal({fault, std::move(field), ""});
   auto judge = [expected](const Outcome& outcome) -> Finding {
     std::string found = outcome ? "was simulated" : refusal(outcome.error());
     return {found == expected, std::move(found)};

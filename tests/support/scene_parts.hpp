@@ -47,7 +47,7 @@ using Check = std::function<Finding(const physics::Simulation<double>&)>;
 // The scene must run and keep the invariants; then `check` decides.
 [[nodiscard]] NamedScene runs(std::string name, std::string expected, physics::Scene<double> scene,
                               Check check, physics::SimulationOptions options = {});
-[[nodiscard]] NamedScene comes_as(std::string name, std::string events,
+[[nodiscard]] NamedScene comes_as(std::string name, const std::string& events,
                                   physics::Scene<double> scene,
                                   physics::SimulationOptions options = {});
 [[nodiscard]] NamedScene ends(std::string name, physics::Scene<double> scene,

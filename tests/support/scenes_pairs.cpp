@@ -88,8 +88,8 @@ Finding never_meets(const Simulation<double>& r) {
 
 // Numbers that are sums of powers of two, and a cloth that keeps them so: a slide at 7/4 m/s takes
 // 1/4 s and 3/8 m, a roll at 1/4 m/s 2 s and 1/4 m, to the last bit.
-NamedScene transition_at_contact(std::string name, std::string events, double speed, double way,
-                                 bool rolls) {
+NamedScene transition_at_contact(std::string name, const std::string& events, double speed,
+                                 double way, bool rolls) {
   Scene<double> scene = closed_box();
   scene.materials.ball_radius = 1.0 / 32;
   scene.materials.gravity = 8;

@@ -107,7 +107,7 @@ const char* words(Symmetry how) {
   return "";
 }
 
-NamedScene same_when(Symmetry how, const std::string& name, Scene<double> scene,
+NamedScene same_when(Symmetry how, const std::string& name, const Scene<double>& scene,
                      SimulationOptions options) {
   return runs(
       name + ", " + words(how), "the same to 1e-12 m times its amplification", scene,

@@ -114,7 +114,7 @@ void add_rails(std::vector<NamedScene>& out) {
     out.push_back(ends("frozen to a rail, pressed by w_y " + in_words(spin),
                        with(closed_box(), 0, frozen, {0, 0.3}, {0, spin, 0})));
   }
-  const auto inexhaustible = [](std::string name, const Cushion& cushion) {
+  const auto inexhaustible = [](const std::string& name, const Cushion& cushion) {
     Scene<double> scene = with(closed_box(), 0, frozen, {0, 0.3}, {0, -60, 5});
     scene.materials.cushion = cushion;
     return ends("pressed to a rail by spin, " + name, std::move(scene));

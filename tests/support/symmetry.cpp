@@ -25,7 +25,7 @@ Ball<double> seen(Ball<double> ball, const Table& table, Symmetry how) {
     w = {-w.x, -w.y, w.z};
   } else {
     // An odd factor permutes 1 to 15.
-    ball.id = BallId{static_cast<std::uint8_t>(number(ball.id) * 7 % max_balls)};
+    ball.id = BallId{static_cast<std::uint8_t>(std::size_t{number(ball.id)} * 7 % max_balls)};
   }
   return ball;
 }

@@ -64,9 +64,7 @@ void expect_explained(const std::string& arguments) {
     }
   }
   for (const std::string& name : sub_commands(lines)) {
-    std::string words = arguments;
-    words += words.empty() ? "" : " ";
-    expect_explained(words += name);
+    expect_explained(arguments.empty() ? name : arguments + " " + name);
   }
 }
 

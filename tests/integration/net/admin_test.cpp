@@ -101,7 +101,7 @@ TEST_F(AdminCalls, AddAnAgentToAServerThatRegistersNobody) {
 TEST_F(AdminCalls, StartATournamentThatIsPlayedToItsEnd) {
   WireClient anna{port()};
   WireClient bert{port()};
-  const std::string anna_token = anna.join("anna");
+  anna.join("anna");
   bert.join("bert");
   EXPECT_EQ(post("tournaments", cup_file).status, 201);
   EXPECT_EQ(status_of("cup"), "open");

@@ -308,7 +308,7 @@ TEST_F(LimitsTest, AnAddressRegistersOnlySoManyAgentsAtOnce) {
       if (const auto* refused = std::get_if<protocol::ErrorMessage>(&answer)) {
         code = refused->code;
       }
-    } catch (const std::runtime_error&) {
+    } catch (const std::runtime_error&) {  // NOLINT(bugprone-empty-catch): the next comes in
       // Turned away at the door, where connections have a rate of their own.
     }
   }

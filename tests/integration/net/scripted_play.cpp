@@ -24,8 +24,9 @@ bool is_free(const rules::GameState& state, physics::Vec2<double> place) {
 
 physics::Vec2<double> free_place_in_kitchen(const rules::GameState& state) {
   for (int i = 0; i < 100; ++i) {
+    const int row = i / 10;
     const physics::Vec2<double> place{table_width * (0.2 + 0.06 * (i % 10)),
-                                      head_string * (0.95 - 0.08 * (i / 10))};
+                                      head_string * (0.95 - 0.08 * row)};
     if (is_free(state, place)) {
       return place;
     }

@@ -33,19 +33,19 @@ StorageError error_of(const std::filesystem::path& file) {
 class RowsScanned {
  public:
   RowsScanned() {
-    count_ = 0;
+    count = 0;
     sqlite3_auto_extension(entry());
   }
   ~RowsScanned() { sqlite3_cancel_auto_extension(entry()); }
   RowsScanned(const RowsScanned&) = delete;
   RowsScanned& operator=(const RowsScanned&) = delete;
 
-  [[nodiscard]] static int take() { return std::exchange(count_, 0); }
+  [[nodiscard]] static int take() { return std::exchange(count, 0); }
 
  private:
   static int add(unsigned, void*, void* statement, void*) {
-    count_ += sqlite3_stmt_status(static_cast<sqlite3_stmt*>(statement),
-                                  SQLITE_STMTSTATUS_FULLSCAN_STEP, 1);
+    count += sqlite3_stmt_status(static_cast<sqlite3_stmt*>(statement),
+                                 SQLITE_STMTSTATUS_FULLSCAN_STEP, 1);
     return 0;
   }
   static int watch(sqlite3* connection, const char**, const void*) {
@@ -53,7 +53,7 @@ class RowsScanned {
   }
   static void (*entry())() { return reinterpret_cast<void (*)()>(watch); }
 
-  static inline int count_ = 0;
+  static inline int count = 0;
 };
 
 TEST(SqliteDatabase, says_that_the_directory_is_missing) {

@@ -22,7 +22,7 @@ inline client::GameInfo info(std::string_view noise = "olympiad") {
 }
 
 struct Placed {
-  unsigned id;
+  unsigned id = 0;
   Point at;
 };
 

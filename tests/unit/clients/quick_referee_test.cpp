@@ -24,7 +24,7 @@ class JudgedTwice {
              .rules = rules,
              .table = table_,
              .materials = materials_,
-             .noise = protocol::noise_preset("high").value()};
+             .noise = protocol::noise_preset("high")};
     state_ = rules::new_game({.rules = rules, .rack_seed = seed}, table_, materials_);
   }
 

@@ -17,7 +17,7 @@ using ::testing::HasSubstr;
 
 const Materials olympiad = preset_materials("olympiad").value();
 const Materials modern = preset_materials("modern").value();
-const double R = olympiad.ball_radius;
+const double R = olympiad.ball_radius;  // NOLINT(readability-identifier-naming): the paper's
 
 Ball<double> struck(const CueShot<double>& shot, const Materials& m = olympiad) {
   return strike(Ball<double>{}, shot, m);
@@ -41,7 +41,7 @@ TEST(CueShotFromDegrees, ConvertsUnitsAndKeepsWhatWasGiven) {
 TEST(Strike, ThroughTheCentreIsAnElasticHitOfTwoMasses) {
   const Ball<double> ball = struck(cue_shot_from_degrees(0.0, 0.0, 0.0, 0.0, 2.0));
   const double m = olympiad.ball_mass;
-  const double M = olympiad.cue_mass;
+  const double M = olympiad.cue_mass;  // NOLINT(readability-identifier-naming): the paper's
   EXPECT_NEAR(ball.velocity.x, 2 * M / (M + m) * 2.0, 1e-15);
   EXPECT_EQ(ball.velocity.y, 0);
   EXPECT_EQ(ball.angular_velocity, (Vec3<double>{0, 0, 0}));
@@ -49,7 +49,7 @@ TEST(Strike, ThroughTheCentreIsAnElasticHitOfTwoMasses) {
 
 TEST(Strike, WithALevelElasticTipConservesEnergyAndMomentum) {
   const double m = olympiad.ball_mass;
-  const double M = olympiad.cue_mass;
+  const double M = olympiad.cue_mass;  // NOLINT(readability-identifier-naming): the paper's
   for (const double a : {-12.0, 0.0, 7.5}) {
     for (const double b : {-9.0, 0.0, 14.0}) {
       const CueShot<double> shot = cue_shot_from_degrees(a, b, 0.0, 37.0, 3.0);

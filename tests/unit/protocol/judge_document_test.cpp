@@ -19,8 +19,9 @@ std::string balls(std::initializer_list<int> down = {}) {
     if (std::find(down.begin(), down.end(), n) != down.end()) {
       text += R"(,"pocket":"side_left"})";
     } else {
+      const int row = (n - 1) / 5;
       text += ",\"x\":" + std::to_string(0.158 + 0.2 * ((n - 1) % 5)) +
-              ",\"y\":" + std::to_string(1.0 + 0.25 * ((n - 1) / 5)) + "}";
+              ",\"y\":" + std::to_string(1.0 + 0.25 * row) + "}";
     }
   }
   return text + "]";

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <numeric>
+#include <ranges>
 #include <string>
 
 namespace poolhall::tournament {
@@ -363,8 +364,8 @@ class Oracle {
     }
     const auto key = [](const Exchange& e) {
       std::vector<int> out;
-      for (auto i = e.out.rbegin(); i != e.out.rend(); ++i) {
-        out.push_back(-*i);
+      for (const int number : std::views::reverse(e.out)) {
+        out.push_back(-number);
       }
       const int sums = std::accumulate(e.in.begin(), e.in.end(), 0) -
                        std::accumulate(e.out.begin(), e.out.end(), 0);
