@@ -76,7 +76,7 @@ class Layout {
     return *this;
   }
   // Some balls here and there, none near another or a rail.
-  Layout& scattered(std::vector<unsigned> balls) {
+  Layout& scattered(const std::vector<unsigned>& balls) {
     static constexpr std::array<std::pair<double, double>, 15> places{{{0.31, 0.62},
                                                                        {0.72, 0.71},
                                                                        {0.22, 0.84},

@@ -13,7 +13,7 @@ namespace poolhall::conformance {
 
 struct Position {
   CheckInfo info;
-  GamePlan (*plan)();
+  GamePlan (*plan)() = nullptr;
 };
 
 [[nodiscard]] std::span<const Position> positions();

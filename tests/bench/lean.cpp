@@ -1,7 +1,8 @@
 // What each omission saves, with the same result bit for bit.
 #include <array>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <ostream>
 
 #include "physics/ball_collision.hpp"
@@ -41,10 +42,14 @@ std::vector<physics::Scene<double>> scenes_of(const Play& play, const BenchOptio
   return scenes;
 }
 
+bool same_bits(const physics::Vec2<double>& p, const physics::Vec2<double>& q) {
+  const auto bits = [](double value) { return std::bit_cast<std::uint64_t>(value); };
+  return bits(p.x) == bits(q.x) && bits(p.y) == bits(q.y);
+}
+
 bool same_bits(const physics::BallSet<double>& p, const physics::BallSet<double>& q) {
   for (std::size_t i = 0; i < p.count; ++i) {
-    if (std::memcmp(&p[i].position, &q[i].position, sizeof p[i].position) != 0 ||
-        p[i].pocket != q[i].pocket) {
+    if (!same_bits(p[i].position, q[i].position) || p[i].pocket != q[i].pocket) {
       return false;
     }
   }

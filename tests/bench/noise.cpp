@@ -41,7 +41,7 @@ std::vector<ShotDeviates> draw(std::size_t games) {
 
 // The same shots, but neighbours are of neighbouring games.
 std::vector<ShotDeviates> across_games(const std::vector<ShotDeviates>& shots) {
-  constexpr std::size_t of_a_game = 2 * shots_of_a_seat;
+  constexpr std::size_t of_a_game = std::size_t{2} * shots_of_a_seat;
   std::vector<ShotDeviates> other;
   other.reserve(shots.size());
   for (std::size_t shot = 0; shot < of_a_game; ++shot) {

@@ -190,10 +190,13 @@ Rows good_rows(const std::filesystem::path& database, std::uint32_t games) {
   Rows all;
   for (std::int64_t id = 1; id <= games; ++id) {
     std::vector<TurnRecord>& rows = all.emplace_back();
-    static_cast<void>((*reader)->each_turn(protocol::GameId{id}, [&rows](const TurnRecord& row) {
+    const auto read = (*reader)->each_turn(protocol::GameId{id}, [&rows](const TurnRecord& row) {
       rows.push_back(row);
       return true;
-    }));
+    });
+    if (!read) {
+      throw std::runtime_error(read.error().reason);
+    }
   }
   return all;
 }

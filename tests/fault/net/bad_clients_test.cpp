@@ -4,6 +4,8 @@
 #include <sys/socket.h>
 #include <unistd.h>
 
+#include <stdexcept>
+
 #include "../../integration/net/scripted_play.hpp"
 #include "../../integration/net/test_server.hpp"
 #include "tests/support/temporary_directory.hpp"
@@ -22,7 +24,9 @@ class Rude {
     address.sin_family = AF_INET;
     address.sin_port = htons(port);
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
-    static_cast<void>(::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address));
+    if (::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0) {
+      throw std::runtime_error("a rude client cannot connect");
+    }
   }
   ~Rude() {
     if (socket_ >= 0) {
