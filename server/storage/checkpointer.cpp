@@ -117,7 +117,8 @@ Checkpointer::Move Checkpointer::move_to_disk() {
 
 // The system forgets what it could not write, and the next fsync knows nothing of it.
 void Checkpointer::keep_log() {
-  disk_has_failed_ = true;
+  if (std::exchange(disk_has_failed_, true))
+    return;
   connection_->keep_log_at_close();
   spdlog::error(
       "{}: it could not be brought to the disk. All that is stored from now on stays in {}-wal "
@@ -127,8 +128,11 @@ void Checkpointer::keep_log() {
 
 Checkpointer::Move Checkpointer::move() {
   Move result;
-  sqlite3_wal_checkpoint_v2(connection_->raw().getHandle(), nullptr, SQLITE_CHECKPOINT_PASSIVE,
-                            &result.in_log, &result.moved);
+  sqlite3* const handle = connection_->raw().getHandle();
+  const int code = sqlite3_wal_checkpoint_v2(handle, nullptr, SQLITE_CHECKPOINT_PASSIVE,
+                                             &result.in_log, &result.moved);
+  if (code != SQLITE_OK && sqlite3_extended_errcode(handle) == SQLITE_IOERR_FSYNC)
+    keep_log();
   return result;
 }
 
