@@ -19,7 +19,10 @@ ROOT = pathlib.Path(__file__).resolve().parents[3]
 
 # How the share of a measurement becomes its options, where that is not `--share`.
 OWN_OPTIONS = {
-    "server": lambda share: ["--seconds", f"{max(1.0, 10 * share):g}", "--idle", str(int(max(500, 10000 * share)))],
+    # Fewer would miss the goals by chance.
+    "ratings": lambda share: ["--share", f"{max(0.2, share):g}"],
+    "strength": lambda share: ["--games", str(max(4, 2 * round(100 * share))), "--clock", "20"],
+    "server": lambda share: ["--seconds", f"{max(3.0, 10 * share):g}", "--idle", str(int(max(500, 10000 * share)))],
     "faults": lambda share: ["--kills", str(max(5, round(1000 * share))), "--games", str(max(4, round(50 * share)))],
 }
 
