@@ -12,7 +12,6 @@ namespace {
 
 using physics::Vec2;
 
-
 struct Obstacle {
   Vec2<double> centre;
   double reach = 0;  // m, smallest distance of the spotted ball's centre
