@@ -33,22 +33,30 @@ class LimitsTest : public ::testing::Test {
     limits().messages_per_second = 1e6;
     limits().message_burst = 1e6;
     WireClient anna{port()};
-    WireClient lazy{port()};
     anna.join("anna");
-    lazy.join("lazy");
+    // The server waits 2 s for its last words to be read; on a full machine that can be too short.
+    bool is_told = false;
+    for (int i = 0; i < 3 && !is_told; ++i) {
+      is_told = last_words_of_a_lazy_one("lazy-" + std::to_string(i)).find("unread_output") !=
+                std::string::npos;
+    }
+    EXPECT_TRUE(is_told);
+    static_cast<void>(anna.call<protocol::PingReply>(protocol::Ping{}));
+  }
+
+  [[nodiscard]] std::string last_words_of_a_lazy_one(const std::string& name) {
+    WireClient lazy{port()};
+    lazy.join(name);
     const std::string ping = R"({"jsonrpc":"2.0","id":1,"method":"ping","params":{"t":")" +
                              std::string(3'000, 'x') + "\"}}\n";
-    std::string many;  // at once: the server waits 2 s for somebody to read its last words
     for (int i = 0; i < 3'000; ++i) {
-      many += ping;
+      lazy.send_bytes(ping);
     }
-    lazy.send_bytes(many);
     std::string last;
     while (auto line = lazy.read_line()) {
       last = std::move(*line);
     }
-    EXPECT_NE(last.find("unread_output"), std::string::npos) << last.substr(0, 200);
-    static_cast<void>(anna.call<protocol::PingReply>(protocol::Ping{}));
+    return last;
   }
 
   test_support::TemporaryDirectory directory_;
