@@ -27,8 +27,9 @@ namespace {
 
 constexpr std::size_t lines_in_one_write = 64;
 constexpr std::size_t tls_record = 16 * 1024;  // the most that one holds
-// How long an ended connection may take to read some more of its last lines; at most
-// ConnectionContext::last_answers for all of them.
+// How long the peer of an ended connection may take to read some more of its last lines, or to send
+// some more of what it was about to send before it reads them; at most
+// ConnectionContext::last_answers for all.
 constexpr std::chrono::seconds linger{2};
 // A peer that does not read closes its window, and its system answers the probes of it, at most
 // two minutes apart.
@@ -202,8 +203,9 @@ void Connection::read_once() {
     end_input();
   } else if (got.state == Channel::State::done && state_ == State::open) {
     take({context_.scratch.data(), got.bytes}, std::chrono::steady_clock::now());
+  } else if (got.state == Channel::State::done && state_ == State::closing) {
+    end_within(linger);  // what it still sends is read and forgotten
   }
-  // What a closing connection still sends is read and forgotten.
 }
 
 // Who sends no more may still read: what it has asked for in whole lines is answered.
