@@ -71,7 +71,7 @@ TEST_F(ConnectionTest, ThatEndsIsKeptWhileItsPeerStillSends) {
     io.run_for(250ms);
     boost::asio::write(peer, boost::asio::buffer("more\n", 5), error);
   }
-  EXPECT_FALSE(error) << error.message();
+  ASSERT_FALSE(error) << error.message();
   EXPECT_EQ(debtor->closed, "it was time");
   peer.shutdown(tcp::socket::shutdown_send);
   std::string last;
