@@ -23,7 +23,7 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds patience{20'000};
+constexpr milliseconds patience{60'000};
 constexpr std::size_t flood_lines = 20'000;
 constexpr std::size_t unread_lines = 400;
 constexpr std::size_t unread_line_bytes = 32'000;
