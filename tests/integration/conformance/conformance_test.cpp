@@ -116,6 +116,8 @@ TEST(Conformance, PassesTheTinyBotOfTheProtocolsPage) {
 struct Fault {
   const char* name;
   const char* check;
+
+  friend void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.check; }
 };
 
 class PlantedFault : public testing::TestWithParam<Fault> {};
