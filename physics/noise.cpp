@@ -1,5 +1,7 @@
 #include "physics/noise.hpp"
 
+#include <cmath>
+
 #include "physics/math.hpp"
 #include "physics/noise_presets.hpp"
 
@@ -95,7 +97,7 @@ CueShot<double> with_noise(const CueShot<double>& intended, const NoiseLevel& le
   executed.a += level.a * millimetre * deviates[0];
   executed.b += level.b * millimetre * deviates[1];
   executed.theta += level.theta / degree * deviates[2];
-  executed.phi += level.phi / degree * deviates[3];
+  executed.phi = std::fmod(executed.phi, 360.0) + level.phi / degree * deviates[3];
   executed.v += level.speed * deviates[4];
   return cue_shot(executed);
 }

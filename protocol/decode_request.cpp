@@ -22,9 +22,10 @@ std::size_t characters(std::string_view text) {
 std::string read_name(const JsonNode& node, const Limits& limits) {
   std::string name = node.string();
   if (!is_agent_name(name, limits)) {
-    node.refuse_as(ErrorCode::bad_name, "expected 1 to " + std::to_string(limits.name_length) +
-                                            " of A-Z a-z 0-9 . _ -, got a string of " +
-                                            std::to_string(name.size()) + " bytes");
+    node.refuse_as(ErrorCode::bad_name,
+                   "expected 1 to " + std::to_string(limits.name_length) +
+                       " of A-Z a-z 0-9 . _ -, not . or .. alone, got a string of " +
+                       std::to_string(name.size()) + " bytes");
   }
   return name;
 }
@@ -206,6 +207,7 @@ Request read_params(Method method, const JsonNode& params, const Limits& limits)
     case Method::login:
       return Login{read_hex(params.at("token"))};
     case Method::tournament_list:
+      static_cast<void>(params.find("tournament"));  // nothing is read, but an object it is
       return TournamentList{};
     case Method::tournament_join:
       return TournamentJoin{read_id<TournamentId>(params.at("tournament"))};

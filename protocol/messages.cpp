@@ -75,7 +75,7 @@ bool is_name_character(char c) {
 
 bool is_agent_name(std::string_view text, const Limits& limits) {
   return !text.empty() && text.size() <= limits.name_length &&
-         std::all_of(text.begin(), text.end(), is_name_character);
+         std::all_of(text.begin(), text.end(), is_name_character) && text != "." && text != "..";
 }
 
 bool is_noise_name(std::string_view text) {

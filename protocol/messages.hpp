@@ -55,7 +55,8 @@ struct Hex256 {
   friend bool operator==(const Hex256&, const Hex256&) = default;
 };
 
-// 1..limits.name_length characters of A-Z a-z 0-9 . _ -
+// 1..limits.name_length characters of A-Z a-z 0-9 . _ -; not "." and "..", which would be lost from
+// the page's addresses.
 [[nodiscard]] bool is_agent_name(std::string_view text, const Limits& limits);
 // The names of noise levels that may be asked for: none, low, olympiad, high, variable.
 [[nodiscard]] bool is_noise_name(std::string_view text);

@@ -1,5 +1,7 @@
 #include "protocol/units.hpp"
 
+#include <cmath>
+
 #include "physics/noise_presets.hpp"
 
 namespace poolhall::protocol {
@@ -26,7 +28,8 @@ NoiseParams scaled(const NoiseParams& noise, double factor) {
 ShotParams with_noise(const ShotParams& intended, const NoiseParams& noise,
                       const physics::ShotDeviates& deviates) {
   return {intended.a + noise.a * deviates[0], intended.b + noise.b * deviates[1],
-          intended.theta + noise.theta * deviates[2], intended.phi + noise.phi * deviates[3],
+          intended.theta + noise.theta * deviates[2],
+          std::fmod(intended.phi, 360.0) + noise.phi * deviates[3],
           intended.v + noise.v * deviates[4]};
 }
 

@@ -36,6 +36,7 @@ struct NoiseParams {
 [[nodiscard]] std::optional<NoiseParams> noise_preset(std::string_view name);
 [[nodiscard]] NoiseParams scaled(const NoiseParams& noise, double factor);
 
+// Without phi's whole turns, exactly: beyond 2^50 degrees noise would be lost in rounding.
 [[nodiscard]] ShotParams with_noise(const ShotParams& intended, const NoiseParams& noise,
                                     const physics::ShotDeviates& deviates);
 

@@ -92,7 +92,8 @@ void lost_again_and_again(Host& host) {
 void server_restarts(Host& host) {
   HostedGame& game = in_a_game(host);
   host.hand_turn(game);
-  host.push(protocol::ShuttingDown{"the server stops; games go on when it is back"});
+  host.push(
+      protocol::ShuttingDown{"the server stops; games that are not over go on when it is back"});
   host.cut(Cut::close);
   host.stay_away(milliseconds{700});
   comes_back_and_goes_on(host, game);

@@ -79,7 +79,8 @@ export class AgentView {
       h('p', { class: 'figures' },
         h('span', {}, h('b', {}, ratingText(agent) || 'unrated'), ' rating'),
         h('span', {}, h('b', {}, agent.games), ' games'), h('span', {}, h('b', {}, agent.wins), ' won'),
-        h('span', {}, h('b', {}, agent.losses), ' lost')),
+        h('span', {}, h('b', {}, agent.losses), ' lost'),
+        agent.draws > 0 && h('span', {}, h('b', {}, agent.draws), ' drawn')),
       h('div', { class: 'columns' },
         h('section', {}, h('h2', {}, 'Rating over time'), agent.history.length > 0
           ? lineChart([seriesOf(agent)], `Rating of ${agent.agent}`, 'games played')

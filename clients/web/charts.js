@@ -9,6 +9,8 @@ const seriesColours = 8;
 
 /** Characters; the whole name is in the tooltip. */
 const longestLabel = 20;
+/** Of a label's character, in a chart's units, about. */
+const labelWidth = 7.5;
 
 /**
  * A colour that stays with a name's place.
@@ -40,8 +42,11 @@ const chartWidth = () => Math.max(320, Math.min(640, window.innerWidth - 40));
 /** @param {number | string} value */
 const withMinus = (value) => String(value).replace('-', '−');
 
-/** @param {string} name */
-const shortened = (name) => (name.length > longestLabel ? `${name.slice(0, longestLabel - 1)}…` : name);
+/**
+ * @param {string} name
+ * @param {number} most characters
+ */
+const shortened = (name, most) => (name.length > most ? `${name.slice(0, most - 1)}…` : name);
 
 /**
  * One line a row: a point and its 95 % interval.
@@ -53,11 +58,13 @@ export function intervalChart(rows, title) {
   const high = Math.max(...rows.map((r) => r.value + r.margin));
   const pad = (high - low || 100) * 0.06;
   const width = chartWidth();
-  const [left, line, top] = [Math.min(150, width * 0.3), 30, 8];
+  const longest = Math.min(longestLabel, Math.max(...rows.map((r) => r.label.length)));
+  const [left, line, top] = [Math.min(width * 0.42, longest * labelWidth + 16), 30, 8];
+  const most = Math.floor((left - 14) / labelWidth);
   const height = top + rows.length * line + 26;
   const x = (/** @type {number} */ v) =>
     left + ((v - low + pad) / (high - low + 2 * pad || 1)) * (width - left - 16);
-  const grid = ticks(low - pad, high + pad, width / 100);
+  const grid = ticks(low - pad, high + pad, width / 70);
   return svg('svg', { class: 'chart', viewBox: `0 0 ${width} ${height}`, role: 'img', 'aria-label': title },
     svg('title', {}, title),
     grid.map((v) => [
@@ -69,7 +76,7 @@ export function intervalChart(rows, title) {
       const colour = seriesColour(i);
       const [a, b] = [x(row.value - row.margin), x(row.value + row.margin)];
       return [
-        svg('text', { class: 'label', x: left - 12, y: y + 4, 'text-anchor': 'end' }, svg('title', {}, row.label), shortened(row.label)),
+        svg('text', { class: 'label', x: left - 12, y: y + 4, 'text-anchor': 'end' }, svg('title', {}, row.label), shortened(row.label, most)),
         svg('line', { class: 'bar', x1: a, x2: b, y1: y, y2: y, stroke: colour }),
         svg('line', { class: 'bar', x1: a, x2: a, y1: y - 5, y2: y + 5, stroke: colour }),
         svg('line', { class: 'bar', x1: b, x2: b, y1: y - 5, y2: y + 5, stroke: colour }),

@@ -14,9 +14,11 @@
 #include <optional>
 #include <string>
 #include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
+#include "clients/bots/house_bots.hpp"
 #include "server/app/commands.hpp"
 #include "server/app/exit_codes.hpp"
 #include "server/app/tournament_calls.hpp"
@@ -71,7 +73,10 @@ settings::Expected<settings::ServerSettings> server_settings(
   } else if (arguments.config.empty()) {
     settings.listen = "127.0.0.1:0";
   }
-  settings.http = arguments.http.empty() ? "127.0.0.1:8080" : arguments.http;
+  if (!arguments.http.empty()) {
+    settings.http = arguments.http;
+  }
+  settings.plain_beyond_loopback |= arguments.plain_beyond_loopback;
   settings.database =
       arguments.database.empty() ? new_database(tournament.name) : arguments.database;
   // Every entry may be a process of this machine.
@@ -82,8 +87,20 @@ settings::Expected<settings::ServerSettings> server_settings(
   return settings;
 }
 
-std::optional<std::string> wrong_address(const RunArguments& arguments,
-                                         const settings::ServerSettings& settings) {
+// A bot that does not exist would forfeit every game.
+std::optional<std::string> wrong_house_bot(const settings::TournamentSettings& tournament) {
+  const auto known = bots::house_bot_names();
+  for (const settings::EntrySettings& entry : tournament.entries) {
+    const auto* house = std::get_if<settings::HouseEntry>(&entry.player);
+    if (house != nullptr && std::find(known.begin(), known.end(), house->bot) == known.end()) {
+      return fmt::format("entry {}: house: \"{}\" came, expected one of {}", entry.name, house->bot,
+                         fmt::join(known, ", "));
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::string> wrong_address(const settings::ServerSettings& settings) {
   for (const std::string& address : {settings.listen, settings.http}) {
     if (address.empty()) {
       continue;
@@ -92,7 +109,7 @@ std::optional<std::string> wrong_address(const RunArguments& arguments,
     if (!endpoint) {
       return fmt::format("\"{}\" came, expected HOST:PORT", address);
     }
-    if (!net::is_loopback(*endpoint) && !arguments.plain_beyond_loopback) {
+    if (!net::is_loopback(*endpoint) && !settings.plain_beyond_loopback) {
       return fmt::format(
           "{} is open to others and not encrypted; --plain-beyond-loopback allows it", address);
     }
@@ -192,11 +209,14 @@ int run_tournament(const RunArguments& arguments) {
   if (!file) {
     return fail(wrong_input, settings::text(file.error()));
   }
+  if (const auto wrong = wrong_house_bot(file->settings)) {
+    return fail(wrong_input, fmt::format("{}: {}", arguments.file, *wrong));
+  }
   const auto settings = server_settings(arguments, file->settings);
   if (!settings) {
     return fail(wrong_input, settings::text(settings.error()));
   }
-  if (const auto wrong = wrong_address(arguments, *settings)) {
+  if (const auto wrong = wrong_address(*settings)) {
     return fail(wrong_input, *wrong);
   }
   std::signal(SIGPIPE, SIG_IGN);  // whoever read the output may go, games do not end for that

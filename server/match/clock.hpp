@@ -2,10 +2,10 @@
 // are arguments.
 //
 //   GameClock clock{settings};
-//   clock.begin_turn(Seat::first, now);                  // the turn was handed to the agent's
-//   queue ClockVerdict verdict = clock.stop(arrived, lag);     // a complete line was read if
-//   (refused) clock.resume(now);                      // the refusal was handed to the queue
-//   TurnTime time = clock.finish_turn();                 // played: charged, increment added
+//   clock.begin_turn(Seat::first, now);                     // the turn was handed to its queue
+//   ClockVerdict verdict = clock.stop(arrived, lag);        // a complete line was read
+//   if (refused) clock.resume(now);                         // the refusal was handed to the queue
+//   TurnTime time = clock.finish_turn();                    // played: charged, increment added
 //
 // Only the time between begin_turn or resume and stop is charged: whatever the server does in
 // between is its own. Of each such stretch the measured lag is forgiven, as far as the turn's

@@ -122,7 +122,7 @@ std::optional<Answer> Game::turned_away(Seat by, std::uint32_t turn) const {
   }
   if (turn > state_.turn) {
     return Refuse{error(
-        ErrorCode::invalid_params, "/params/turn",
+        ErrorCode::stale_turn, "/params/turn",
         "got " + std::to_string(turn) + ", the current turn is " + std::to_string(state_.turn))};
   }
   if (by != state_.to_move) {

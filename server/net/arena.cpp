@@ -414,7 +414,7 @@ void Arena::look_whether_quiet() {
   }
   const bool busy = std::any_of(games_.begin(), games_.end(),
                                 [](const auto& entry) { return entry.second->in_flight(); });
-  if (!busy) {
+  if (!busy && tournaments_.ends_under_way() == 0) {
     tell_everyone();
   }
 }
@@ -426,8 +426,9 @@ void Arena::tell_everyone() {
   stage_ = Stage::told;
   const auto sessions = sessions_;
   for (const auto& [id, session] : sessions) {
-    session->close_with(protocol::ShuttingDown{"the server stops; games go on when it is back"},
-                        "shutting_down");
+    session->close_with(
+        protocol::ShuttingDown{"the server stops; games that are not over go on when it is back"},
+        "shutting_down");
   }
   bots_.stop();
   stop_deadline_ = deadlines_.at(steady_clock::now() + last_lines, [this] { after_stop_(); });

@@ -16,14 +16,6 @@ using std::chrono::steady_clock;
 
 namespace {
 
-bool is_name(std::string_view name, std::size_t longest) {
-  return !name.empty() && name.size() <= longest &&
-         std::all_of(name.begin(), name.end(), [](char c) {
-           return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
-                  c == '.' || c == '_' || c == '-';
-         });
-}
-
 // A token that nobody has: its owner gets another from employ().
 TokenHash nobody() {
   return hash_of(new_token());
@@ -44,7 +36,8 @@ bool is_unclaimed(const TokenHash& hash) {
 
 Error bad_name(const protocol::Limits& limits) {
   return {ErrorCode::bad_name, "/params/name",
-          fmt::format("expected 1 to {} characters of [A-Za-z0-9._-]", limits.name_length)};
+          fmt::format("expected 1 to {} characters of [A-Za-z0-9._-], not . or .. alone",
+                      limits.name_length)};
 }
 
 Error not_enrolled(const storage::StorageError& error) {
@@ -62,7 +55,7 @@ std::optional<Error> Arena::why_not(const protocol::Register& request) const {
     return Error{ErrorCode::registration_closed, "",
                  "agents are added by the host; ask for a token"};
   }
-  if (!is_name(request.name, settings_.limits.name_length)) {
+  if (!protocol::is_agent_name(request.name, settings_.limits)) {
     return bad_name(settings_.limits);
   }
   return std::nullopt;
@@ -97,7 +90,7 @@ void Arena::enroll(const std::shared_ptr<Session>& session, const protocol::Regi
 
 void Arena::add_agent(const std::string& name,
                       std::function<void(const protocol::Expected<std::string>&)> then) {
-  if (!is_name(name, settings_.limits.name_length)) {
+  if (!protocol::is_agent_name(name, settings_.limits)) {
     then(tl::unexpected(bad_name(settings_.limits)));
     return;
   }

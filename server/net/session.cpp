@@ -72,14 +72,22 @@ Session::Session(std::shared_ptr<Connection> connection, Lobby& lobby)
 
 void Session::begin() {
   const auto wait = lobby_.limits().login_deadline;
-  login_deadline_ = lobby_.deadlines().at(
-      std::chrono::steady_clock::now() + wait, [weak = weak_from_this(), wait] {
-        if (const auto self = weak.lock()) {
-          self->close({ErrorCode::too_slow, "",
-                       fmt::format("no login within {} ms of the connection", wait.count())});
-        }
-      });
+  login_deadline_ = lobby_.deadlines().at(std::chrono::steady_clock::now() + wait,
+                                          [weak = weak_from_this(), wait] {
+                                            if (const auto self = weak.lock()) {
+                                              self->end_login(wait);
+                                            }
+                                          });
   connection_->start(weak_from_this());
+}
+
+void Session::end_login(std::chrono::milliseconds wait) {
+  if (stage_ == Stage::logging_in) {
+    close({ErrorCode::paused, "", "the server cannot store now who comes; come back later"});
+  } else {
+    close({ErrorCode::too_slow, "",
+           fmt::format("no login within {} ms of the connection", wait.count())});
+  }
 }
 
 void Session::push(const Notification& notification) {
@@ -240,7 +248,8 @@ void Session::take_before_login(protocol::RequestId id, const protocol::Request&
     if (stage_ == Stage::silent) {
       greet(id, *hello);
     } else {
-      refuse(id, {ErrorCode::invalid_request, "/method", "got a second hello, expected a login"});
+      refuse(id, {ErrorCode::already_logged_in, "/method",
+                  "got a second hello, expected register or login"});
     }
     return;
   }

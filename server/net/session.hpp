@@ -104,6 +104,7 @@ class Session : public Connection::Handler, public std::enable_shared_from_this<
  private:
   enum class Stage : std::uint8_t { silent, greeted, logging_in, in };
 
+  void end_login(std::chrono::milliseconds wait);  // that is not done in time
   void reply(const protocol::RequestId& id, const Reply& reply);
   void refuse(const protocol::RequestId& id, const protocol::Error& error);
   void take(protocol::Incoming incoming, SteadyTime read_at);

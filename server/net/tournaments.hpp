@@ -60,6 +60,8 @@ class Tournaments final : public MatchHost {
   void on_entries_changed(std::function<void(const std::string&)> callback) override;
   void announce_end(const std::string& tournament,
                     const std::vector<protocol::StandingRow>& standings) override;
+  // Ends that no agent has been told of yet, for they are not stored.
+  [[nodiscard]] std::size_t ends_under_way() const { return ends_under_way_; }
 
   // What Matches tells.
   void game_over(const storage::MatchRecord& match, const GameOutcome& outcome);
@@ -127,6 +129,7 @@ class Tournaments final : public MatchHost {
   std::function<Agent&(const std::string&)> stand_in_;
   std::function<void(const std::string&, storage::AgentId)> forfeit_games_;
   std::map<std::string, Tournament> tournaments_;
+  std::size_t ends_under_way_ = 0;
   std::map<OrderKey, MatchOrder> orders_;
   Awaited awaited_entries_;  // of agents that have not registered yet
   std::map<OrderKey, MatchOrder> awaited_orders_;

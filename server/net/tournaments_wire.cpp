@@ -96,6 +96,7 @@ void Tournaments::announce_end(const std::string& tournament,
     rows.push_back({row.rank, row.agent, row.points, row.games, row.wins, row.losses, row.draws});
   }
   const protocol::TournamentOver over{found->second.record.wire_id, tournament, standings};
+  ++ends_under_way_;
   const auto posted = services_.writer.post(
       [tournament, rows](storage::Database& database) {
         return database.finish_tournament(tournament, rows);
@@ -107,8 +108,11 @@ void Tournaments::announce_end(const std::string& tournament,
           spdlog::error("the end of tournament {} cannot be stored: {}", over.name,
                         stored.error().reason);
         }
+        --ends_under_way_;
+        services_.on_quiet();
       });
   if (posted != storage::Posted::accepted) {
+    --ends_under_way_;
     spdlog::error("the end of tournament {} cannot be stored: the database takes nothing",
                   tournament);
   }

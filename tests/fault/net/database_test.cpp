@@ -74,6 +74,28 @@ TEST_F(Trouble, OfALockedFileIsWaitedOut) {
   EXPECT_GT(bert_.wait_for<protocol::GameShot<Received>>().events.size(), 1U);
 }
 
+// Who comes meanwhile was not too slow: the server was.
+TEST_F(Trouble, OfALockedFileIsToldToWhoLogsIn) {
+  anna_.join("anna");
+  bert_.join("bert");
+  static_cast<void>(start_game(anna_, bert_, "bert"));
+  test_support::RawSqlite other{directory_ / "test.db"};
+  other.run("BEGIN IMMEDIATE");
+  const auto shot = shoot_into_trouble();
+  WireClient carl{server_.port()};
+  carl.hello();
+  static_cast<void>(carl.send(protocol::Register{"carl", {}}));
+  std::string last;
+  while (const auto message = carl.next_message()) {
+    if (const auto* error = std::get_if<protocol::ErrorMessage>(&*message)) {
+      last = error->code;
+    }
+  }
+  EXPECT_EQ(last, "paused");
+  other.run("ROLLBACK");
+  expect_answered(shot);
+}
+
 class TroubleOf : public Trouble, public ::testing::WithParamInterface<int> {};
 
 TEST_P(TroubleOf, TheDiskPausesGamesAndChargesNobody) {

@@ -108,6 +108,27 @@ TEST_F(Ends, OfATournamentAreToldAgainUntilTheyAreAcknowledged) {
   EXPECT_EQ(come_back(token)->kept<protocol::TournamentOver>(), 0U);
 }
 
+// `poolhall tournament run` stops its server as soon as the tournament is over.
+TEST_F(Ends, OfATournamentAreToldBeforeTheServerStops) {
+  server_->server().post([](net::MatchHost& host) {
+    host.open_tournament({.id = "cup", .title = "The cup", .settings = ""});
+  });
+  WireClient anna{port()};
+  anna.join("anna");
+  const auto list =
+      anna.call<protocol::TournamentListReply>(protocol::TournamentList{}).tournaments;
+  ASSERT_EQ(list.size(), 1U);
+  static_cast<void>(
+      anna.call<protocol::TournamentReply>(protocol::TournamentJoin{list[0].tournament}));
+  server_->server().post([](net::MatchHost& host) {
+    host.set_status("cup", net::TournamentStatus::finished);
+    host.announce_end("cup", {{1, "anna", 2.5, 4, 2, 1, 1}});
+  });
+  server_->stop();
+  EXPECT_EQ(anna.wait_for<protocol::TournamentOver>().name, "cup");
+  static_cast<void>(anna.wait_for<protocol::ShuttingDown>());
+}
+
 TEST_F(Ends, OfManyGamesAreToldAsFarAsTheLimitGoes) {
   server_.reset();
   net::ServerOptions options = test_options(directory_ / "test.db");

@@ -81,5 +81,12 @@ TEST(WithNoise, AddsTheDeviatesInTheirUnits) {
   EXPECT_EQ(executed.a, executed.given.a / 1000);
 }
 
+TEST(WithNoise, IsNotLostInTurnsThatAreWhole) {
+  const CueShot<double> intended = cue_shot_from_degrees(0.0, 0.0, 10.0, 4503599627370570.0, 3.0);
+  const CueShot<double> executed =
+      with_noise(intended, preset_noise("olympiad").value(), {1, 2, -1, -2, 3});
+  EXPECT_DOUBLE_EQ(executed.given.phi, 89.75);
+}
+
 }  // namespace
 }  // namespace poolhall::physics

@@ -117,6 +117,21 @@ TEST(DecodeRequest, AsksForNoParamsWhereNoneAreNeeded) {
   EXPECT_TRUE(
       decode_request(R"({"jsonrpc":"2.0","id":1,"method":"tournament.list"})", default_limits));
   EXPECT_EQ(refused("ping", "3").field, "/params");
+  EXPECT_EQ(refused("tournament.list", "3").field, "/params");
+}
+
+TEST(DecodeRequest, TakesNoNameThatAPageCouldNotHave) {
+  EXPECT_EQ(refused("register", R"({"name":"."})").code, ErrorCode::bad_name);
+  EXPECT_EQ(refused("register", R"({"name":".."})").code, ErrorCode::bad_name);
+  EXPECT_EQ(decoded<Register>("register", R"({"name":"..."})").name, "...");
+}
+
+// Where a name or an object is expected a token may come by mistake, and refusals are logged.
+TEST(DecodeRequest, TellsNoTokenThatCameInTheWrongPlace) {
+  const std::string token(64, 'a');
+  const Error error = refused("register", '"' + token + '"');
+  EXPECT_EQ(error.reason.find("aaaa"), std::string::npos) << error.reason;
+  EXPECT_NE(error.reason.find("64 characters"), std::string::npos) << error.reason;
 }
 
 TEST(DecodeRequest, RepeatsNoLongKeyInItsAnswer) {

@@ -34,6 +34,15 @@ TEST(WithNoise, AddsEachDeviationOnceInTheWiresUnits) {
   EXPECT_EQ(noisy, (ShotParams{1.5, 1.75, 30.25, 41, 3.5}));
 }
 
+// 2^52 + 74 degrees is the heading 90 with a last place of one degree: noise would be rounded away.
+TEST(WithNoise, IsNotLostInTurnsThatAreWhole) {
+  const NoiseParams noise{0, 0, 0, 0.125, 0};
+  for (const double phi : {4503599627370570.0, 90.0, 450.0}) {
+    EXPECT_EQ(with_noise({0, 0, 5, phi, 3}, noise, deviates).phi, 90 + 0.125 * deviates[3]) << phi;
+  }
+  EXPECT_EQ(with_noise({0, 0, 5, -450, 3}, noise, deviates).phi, -90 + 0.125 * deviates[3]);
+}
+
 TEST(ExecutedShot, IsTheIntendedOneWithoutNoise) {
   const ShotParams intended{0.1, -0.2, 10, 123.456, 2.1};
   const ExecutedShot executed =
