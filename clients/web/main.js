@@ -93,7 +93,8 @@ async function show() {
   }
   view?.close();
   shown = key;
-  document.title = where.name ? `${where.name} - Poolhall` : 'Poolhall';
+  document.title = where.name
+    ? `${where.page === 'games' ? 'Game ' : ''}${where.name} - Poolhall` : 'Poolhall';
   for (const link of document.querySelectorAll('header nav a')) {
     const own = route(link.getAttribute('href') ?? '').page === where.page;
     if (own) {

@@ -380,7 +380,7 @@ tl::expected<std::optional<Endpoint>, std::string> Server::Impl::open_page(
 }
 
 void Server::Impl::make_http() {
-  web::HttpServer::Options options{page_sources(), {}};
+  web::HttpServer::Options options{page_sources(), {}, options_.settings.http_name};
   options.publisher.watch = [this](web::Topic topic, web::Ticket ticket) {
     asio::post(io_, [this, topic, ticket] { broadcast_->watch(topic, ticket); });
   };

@@ -123,6 +123,9 @@ Keys<ServerSettings> server_key_table() {
   keys.add(
       "plain_beyond_loopback", Flag{}, [](auto& s) -> auto& { return s.plain_beyond_loopback; });
   keys.add(
+      "http_name", OrNone<Line>{{"the name of a host"}},
+      [](auto& s) -> auto& { return s.http_name; });
+  keys.add(
       "admin_token_file", OrNone<Line>{{"the name of a file"}},
       [](auto& s) -> auto& { return s.admin_token_file; });
   keys.add(

@@ -41,6 +41,7 @@ struct ServerSettings {
   std::uint32_t simulations_per_second = 10;  // of the page's workbench, for each address
   std::chrono::milliseconds spectator_delay{0};
   bool plain_beyond_loopback = false;  // unencrypted, for other machines
+  std::string http_name;               // the page's, behind a reverse proxy; empty: none
   std::string admin_token_file;        // made if it does not exist; empty: no admin calls
   TlsSettings tls;
   LogSettings log;

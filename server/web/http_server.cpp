@@ -130,6 +130,7 @@ asio::awaitable<void> tell(std::shared_ptr<Socket> socket, std::shared_ptr<Spect
 HttpServer::HttpServer(Options options)
     : workers_(1),
       site_(io_, workers_, options.sources),
+      name_(std::move(options.name)),
       feed_(io_, options.sources.delay, std::move(options.publisher)) {}
 
 HttpServer::~HttpServer() {
@@ -253,14 +254,13 @@ asio::awaitable<void> HttpServer::serve(Wire wire, Visitor visitor) {
 }
 
 asio::awaitable<void> HttpServer::spectate(Wire wire, Request request, Visitor visitor) {
-  const std::string_view host = text_of(request[http::field::host]);
-  const std::string_view origin = text_of(request[http::field::origin]);
   const auto topic = topic_of(text_of(request.target()));
-  if (!topic || !is_own_host(host, visitor.door) || !is_own_origin(origin, host)) {
-    const auto response = response_of(
-        topic ? refusal(403, "wrong_origin", "this page may not watch here")
-              : refusal(404, "not_found", "expected /ws/lobby or /ws/games/ and a game's number"),
-        request);
+  auto refused = why_not(request, visitor);
+  if (!refused && !topic) {
+    refused = refusal(404, "not_found", "expected /ws/lobby or /ws/games/ and a game's number");
+  }
+  if (refused) {
+    const auto response = response_of(std::move(*refused), request);
     co_await http::async_write(wire, response, awaited);
     co_return;
   }
@@ -288,12 +288,13 @@ asio::awaitable<void> HttpServer::spectate(Wire wire, Request request, Visitor v
 
 // A page of somebody else's that a browser was made to ask names another host. By TLS the server
 // has the names that its certificate is for.
-bool HttpServer::is_own_host(std::string_view host, const Door& door) {
+bool HttpServer::is_own_host(std::string_view host, const Door& door) const {
   std::string_view name = without_port(host);
   if (name.starts_with('[') && name.ends_with(']')) {
     name = name.substr(1, name.size() - 2);
   }
-  if (name == "localhost" || name == "127.0.0.1" || name == "::1") {
+  if (name == "localhost" || name == "127.0.0.1" || name == "::1" ||
+      (!name_.empty() && beast::iequals(name, name_))) {
     return true;
   }
   if (door.tls != nullptr) {
@@ -302,14 +303,27 @@ bool HttpServer::is_own_host(std::string_view host, const Door& door) {
   return name == door.host || door.host == "0.0.0.0" || door.host == "::";
 }
 
-asio::awaitable<Page> HttpServer::page_for(const Request& request, const Visitor& visitor) {
+std::optional<Page> HttpServer::why_not(const Request& request, const Visitor& visitor) const {
   const std::string_view host = text_of(request[http::field::host]);
   const std::string_view origin = text_of(request[http::field::origin]);
   if (!is_own_host(host, visitor.door)) {
-    co_return refusal(421, "wrong_host", "this server has another name");
+    return refusal(421, "wrong_host",
+                   fmt::format("got the Host \"{}\", expected localhost, the address that is "
+                               "listened on, a name of the certificate or http_name",
+                               host));
   }
   if (!is_own_origin(origin, host)) {
-    co_return refusal(403, "wrong_origin", "another site's page may not ask this");
+    return refusal(403, "wrong_origin",
+                   fmt::format("got the Origin \"{}\", another site's; expected none, or a page "
+                               "of \"{}\"",
+                               origin, host));
+  }
+  return std::nullopt;
+}
+
+asio::awaitable<Page> HttpServer::page_for(const Request& request, const Visitor& visitor) {
+  if (auto refused = why_not(request, visitor)) {
+    co_return std::move(*refused);
   }
   co_return co_await site_.answer(request, visitor.address);
 }

@@ -35,6 +35,7 @@ class HttpServer {
   struct Options {
     Sources sources;
     LiveFeed::Publisher publisher;
+    std::string name{};  // of the host, beside those of its addresses and certificates
   };
 
   explicit HttpServer(Options options);
@@ -72,11 +73,14 @@ class HttpServer {
   boost::asio::awaitable<void> serve(Wire wire, Visitor visitor);
   boost::asio::awaitable<void> spectate(Wire wire, Request request, Visitor visitor);
   boost::asio::awaitable<Page> page_for(const Request& request, const Visitor& visitor);
-  [[nodiscard]] static bool is_own_host(std::string_view host, const Door& door);
+  [[nodiscard]] bool is_own_host(std::string_view host, const Door& door) const;
+  // Why a request that says it was made for this host, by a page of that origin, is not answered.
+  [[nodiscard]] std::optional<Page> why_not(const Request& request, const Visitor& visitor) const;
 
   boost::asio::io_context io_{1};
   boost::asio::thread_pool workers_;
   Site site_;
+  std::string name_;
   LiveFeed feed_;
   std::list<Door> doors_;
   std::size_t open_ = 0;

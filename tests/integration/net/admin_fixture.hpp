@@ -25,6 +25,7 @@ class AdminFixture : public ::testing::Test {
     server_.reset();
     net::ServerOptions options = test_options(directory_ / "test.db");
     options.settings.http = "127.0.0.1:0";
+    options.settings.http_name = "pool.example.org";
     options.settings.admin_token_file = (directory_ / "token").string();
     options.settings.registration = registration_;
     options.stored_tournaments = net::StoredTournaments::taken_up;

@@ -55,6 +55,18 @@ TEST_F(AdminCalls, AreNotMadeByOtherSitesPages) {
   EXPECT_EQ(http_call(http(), call).status, 201);
 }
 
+// What a browser says of a page that a reverse proxy with TLS hands on.
+TEST_F(AdminCalls, AreMadeByTheServersOwnPageBehindAProxy) {
+  HttpCall call{"POST", "/api/admin/agents", R"({"name":"anna"})", token_};
+  call.host = "Pool.example.org";
+  call.headers = {"Origin: https://Pool.example.org"};
+  EXPECT_EQ(http_call(http(), call).status, 201);
+  call.headers = {"Origin: https://evil.example"};
+  const auto refused = http_call(http(), call);
+  EXPECT_EQ(refused.status, 403);
+  EXPECT_NE(refused.body.find("https://evil.example"), std::string::npos) << refused.body;
+}
+
 TEST_F(AdminCalls, AreRefusedByAServerWithoutAToken) {
   net::ServerOptions options = test_options(directory_ / "other.db");
   options.settings.http = "127.0.0.1:0";
