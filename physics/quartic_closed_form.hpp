@@ -133,7 +133,13 @@ template <class Real>
     return roots;
   }
   const Real s = sqrt(z);
-  const Real sum = (p + z) / Real(2), difference = q / (Real(2) * s);
+  const Real sum = (p + z) / Real(2);
+  // |q| / (2 s) = sqrt(sum^2 - r). Where the quartic is biquadratic, as for a straight roll at a
+  // resting ball, q and z vanish together and only the root keeps its digits.
+  const Real square = sum * sum - r;
+  const bool is_stable = square + square >= sum * sum + Real(abs(r));
+  const Real size = is_stable ? Real(sqrt(square)) : Real(abs(q) / (s + s));
+  const Real difference = q < Real(0) ? Real(-size) : size;
   add_quadratic(roots, s, Real(sum - difference), shift);
   add_quadratic(roots, Real(-s), Real(sum + difference), shift);
   return roots;

@@ -8,6 +8,6 @@
 
 namespace poolhall::physics {
 
-inline constexpr std::string_view version = "physics-4";
+inline constexpr std::string_view version = "physics-5";
 
 }  // namespace poolhall::physics

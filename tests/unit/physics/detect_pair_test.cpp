@@ -2,6 +2,8 @@
 
 #include <gtest/gtest.h>
 
+#include "physics/quartic_closed_form.hpp"
+
 namespace poolhall::physics {
 namespace {
 
@@ -93,6 +95,25 @@ TEST(DetectPair, CurvedPathThatComesCloseTwiceMeetsAtTheFirstTime) {
 TEST(DetectPair, EqualMotionsNeverMeet) {
   EXPECT_FALSE(first_contact(pair({two_r, 0}, {0, 0}), 10.0));
   EXPECT_FALSE(first_contact(pair({0.3, 0.1}, {0, 0}), 10.0));
+}
+
+// The balls lose no side speed: from the middle of the course the quartic has no odd terms.
+TEST(ClosedForm, FindsARestingBallThatAStraightRollWouldNotRollThrough) {
+  for (int i = 0; i < 2000; ++i) {
+    const double speed = 0.05 + 0.0007 * i, deceleration = 0.147;
+    const double angle = 0.37 * i, aside = 0.05 * std::sin(1.7 * i);
+    const double way = (0.1 + 0.8 * std::abs(std::sin(0.9 * i))) * speed * speed / 0.294;
+    const double ahead = way + std::sqrt(two_r * two_r - aside * aside);
+    const double c = std::cos(angle), s = std::sin(angle);
+    const auto p = pair({c * ahead - s * aside, s * ahead + c * aside}, {-c * speed, -s * speed},
+                        {c * deceleration, s * deceleration});
+    const double met = 2 * way / (speed + std::sqrt(speed * speed - 2 * deceleration * way));
+    for (const Polish polish : {Polish::no, Polish::yes}) {
+      const auto t = closed_form_contact(p, speed / deceleration, polish);
+      ASSERT_TRUE(t) << i;
+      EXPECT_NEAR(*t, met, 1e-7) << i;
+    }
+  }
 }
 
 TEST(Roots, FirstClosingOfAGapThatIsClosedAndOpening) {
