@@ -95,7 +95,10 @@ class PressedImpact {
     if (!is_wedged()) {
       // The rest, a few last places, in one straight step.
       const PressedState<Real> slope = rate_of(y_);
-      y_ = advanced(y_, Real(left_to(released, y_) / -slope[pressed::work]), slope);
+      // Nothing is given back without restitution: the ball does not move, and neither does the
+      // work.
+      if (slope[pressed::work] < Real(0))
+        y_ = advanced(y_, Real(left_to(released, y_) / -slope[pressed::work]), slope);
     }
     if (y_[pressed::vx] > Real(0)) {
       y_[pressed::vx] = Real(0);

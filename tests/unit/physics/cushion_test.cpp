@@ -183,6 +183,24 @@ TEST(Mathavan2010, WithoutFrictionOnlyTurnsTheNormalSpeed) {
   EXPECT_EQ(after.angular_velocity, before.angular_velocity);
 }
 
+TEST(Mathavan2010, WithoutRestitutionIsWhatLittleRestitutionComesTo) {
+  const Materials little = with_cushion(Mathavan2010Cushion{1e-6, 0.14, {}});
+  for (const double restitution : {0.0, 1e-12, 1e-8}) {
+    const Materials m = with_cushion(Mathavan2010Cushion{restitution, 0.14, {}});
+    for (const double degrees : {0.0, 20.0, -60.0}) {
+      for (const bool rolls : {false, true}) {
+        const Ball<double> ball = ball_at<double>(2, degrees, rolls);
+        const Ball<double> after = bounced(ball, m), expected = bounced(ball, little);
+        EXPECT_NEAR(after.velocity.x, expected.velocity.x, 1e-5);
+        EXPECT_NEAR(after.velocity.y, expected.velocity.y, 1e-5);
+        EXPECT_NEAR(after.angular_velocity.x, expected.angular_velocity.x, 1e-3);
+        EXPECT_NEAR(after.angular_velocity.y, expected.angular_velocity.y, 1e-3);
+        EXPECT_NEAR(after.angular_velocity.z, expected.angular_velocity.z, 1e-3);
+      }
+    }
+  }
+}
+
 TEST(Damped, ScalesSpeedsAndSpin) {
   Ball<double> ball = ball_at<double>(2, 30, false);
   ball.angular_velocity = {1, 2, 3};
