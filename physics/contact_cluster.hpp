@@ -173,8 +173,9 @@ class ContactCluster {
   }
 
   // Pair by pair from the accumulated normal impulse and the slip before the impact. That is not
-  // the slip on which the impulses then act: where the cluster would win energy by its friction,
-  // all of it is scaled down to what takes the most, as sticking is to a pair.
+  // the slip on which the impulses then act: beyond the share of them that takes the most energy
+  // they would drive the balls on, so that no more than that share acts, as sticking bounds the
+  // friction of a pair. The share falls from 1 without a jump.
   void rub_all(const Balls& before, Balls& balls, const BallFriction& friction) const {
     const Balls smooth = balls;
     for (std::size_t n = 0; n < hit_count_; ++n) {
@@ -186,19 +187,18 @@ class ContactCluster {
           friction);
     }
     // What a share of the impulses wins: linear * share + square * share^2.
-    Real won(0), square(0), scale(0);
+    Real linear(0), square(0), scale(0);
     for (std::size_t p = 0; p < graph_.balls(); ++p) {
       const Ball<Real>& with = balls[member_[p]];
       const Ball<Real>& without = smooth[member_[p]];
       Ball<Real> change;
       change.velocity = with.velocity - without.velocity;
       change.angular_velocity = with.angular_velocity - without.angular_velocity;
+      linear += shared_energy(without, change, c_);
       square += kinetic_energy(change, c_);
       scale += kinetic_energy(without, c_);
-      won += kinetic_energy(with, c_) - kinetic_energy(without, c_);
     }
-    if (won > Real(1e-13) * scale) {
-      const Real linear = won - square;
+    if (square > Real(1e-26) * scale && -linear < square + square) {
       lessen(smooth, balls, linear < Real(0) ? Real(-linear / (square + square)) : Real(0));
     }
   }

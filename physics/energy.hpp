@@ -12,4 +12,12 @@ template <class Real>
   return c.mass / Real(2) * (dot(ball.velocity, ball.velocity) + Real(2) / Real(5) * turning);
 }
 
+// What the motion of p and that of q win together beyond what each has: E(p + q) - E(p) - E(q).
+template <class Real>
+[[nodiscard]] Real shared_energy(const Ball<Real>& p, const Ball<Real>& q,
+                                 const Coefficients<Real>& c) {
+  const Real turning = c.radius * c.radius * dot(p.angular_velocity, q.angular_velocity);
+  return c.mass * (dot(p.velocity, q.velocity) + Real(2) / Real(5) * turning);
+}
+
 }  // namespace poolhall::physics

@@ -189,5 +189,30 @@ TEST(Racks, WinNoEnergyByTheirFriction) {
   }
 }
 
+// The more it spins, the more of a ball's friction on two others would drive them on.
+TEST(Racks, TakeFrictionThatChangesWithoutAJump) {
+  Materials m = *preset_materials("modern");
+  m.ball_restitution = 0.95;
+  const auto c = coefficients<double>(m);
+  ContactCluster<double> cluster(c);
+  double last = 0;
+  for (int i = 0; i <= 4000; ++i) {
+    const double spin = 1.66 * i / 4000;
+    ContactCluster<double>::Balls balls{};
+    balls[0].id = BallId{13};
+    balls[0].position = {-c.diameter * std::cos(0.3587), c.diameter * std::sin(0.3587)};
+    balls[0].velocity = {3.7, -1.45};
+    balls[0].angular_velocity = {-25.58 * spin, 7.447 * spin, -75.06 * spin};
+    balls[1].id = BallId{0};
+    balls[2].id = BallId{6};
+    balls[2].position = {c.diameter * std::cos(0.0577), c.diameter * std::sin(0.0577)};
+    cluster.gather(balls, 7, 0, 1, ContactModel::cluster);
+    cluster.resolve(balls, m.ball_friction, ContactModel::cluster);
+    ASSERT_LT(std::abs(balls[1].angular_velocity.z - last), 0.02) << spin;
+    last = balls[1].angular_velocity.z;
+  }
+  EXPECT_GT(last, 1);
+}
+
 }  // namespace
 }  // namespace poolhall::physics
