@@ -43,7 +43,8 @@ Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
                 time_,
                 settings_.limits,
                 [this](LiveGame& game) { game_over(game); },
-                [this] { look_whether_quiet(); }},
+                [this] { look_whether_quiet(); },
+                [this](protocol::GameId game) { return bots_.has_places(game); }},
       bots_(io, deadlines_),
       matches_(services_, ids_,
                {[this](std::shared_ptr<LiveGame> game) { launch(std::move(game)); },
@@ -72,7 +73,9 @@ Arena::Arena(boost::asio::io_context& io, boost::asio::thread_pool& workers,
                       forfeit_games_of(tournament, loser);
                     }}),
       challenges_(services_, matches_,
-                  {[this](const std::string& bot) { return house_opponent(bot); },
+                  {[this](storage::AgentId from, const std::string& bot) {
+                     return house_opponent(from, bot);
+                   },
                    [this](storage::AgentId agent) {
                      const auto own = games_of_.find(agent);
                      return own == games_of_.end() ? 0 : own->second.size();
@@ -117,6 +120,11 @@ void Arena::begin(const HouseBots::Settings& bots) {
     // The bots of tournaments' entries are employed when the driver enters them again.
     if (agent.record.house_bot && agent.record.name.starts_with("house:")) {
       bots_.employ(book_, agent, {.bot = *agent.record.house_bot});
+    }
+  });
+  bots_.on_places([this](protocol::GameId game) {
+    if (LiveGame* live = live_game(game)) {
+      live->places_given();
     }
   });
   bots_.configure(bots);
@@ -320,8 +328,8 @@ void Arena::launch(std::shared_ptr<LiveGame> game) {
   games_[number(record.id)] = game;
   for (const storage::AgentId agent : record.agents) {
     games_of_[agent].push_back(record.id);
-    bots_.need(agent);
   }
+  bots_.need(record.id, record.agents);
   if (stage_ != Stage::running) {
     game->halt();
   }
@@ -344,10 +352,8 @@ void Arena::game_over(LiveGame& game) {
   ++games_over_;
   for (const storage::AgentId agent : record.agents) {
     std::erase(games_of_[agent], record.id);
-    if (games_of_[agent].empty()) {
-      bots_.release(agent);
-    }
   }
+  bots_.release(record.id);
   untold_.game_over(record);
   matches_.game_over(game);
   games_.erase(number(record.id));  // whoever called holds it until the call is done

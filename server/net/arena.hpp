@@ -129,7 +129,10 @@ class Arena final : public Lobby {
   void catch_up(const std::shared_ptr<Session>& session, const Agent& agent);
   [[nodiscard]] protocol::LoginReply login_reply(const Agent& agent) const;
   Agent& house_agent(const std::string& name, const HousePlayer& player);
-  [[nodiscard]] std::optional<storage::AgentId> house_opponent(const std::string& bot);
+  [[nodiscard]] tl::expected<storage::AgentId, std::string> house_opponent(storage::AgentId from,
+                                                                           const std::string& bot);
+  [[nodiscard]] std::optional<std::string> why_no_house_opponent(storage::AgentId from,
+                                                                 const std::string& bot) const;
 
   // Requests.
   void handle_game(const Asker& asker, storage::AgentId agent, protocol::Request& request,

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <tuple>
 #include <utility>
 
 #include "server/net/arena.hpp"
@@ -295,45 +296,62 @@ Agent& Arena::house_agent(const std::string& name, const HousePlayer& player) {
   bots_.employ(book_, *agent, player);
   // A game that went on when the server stopped may have waited for its player to be known.
   const auto own = games_of_.find(agent->id());
-  if (own != games_of_.end() && !own->second.empty()) {
-    bots_.need(agent->id());
+  if (own != games_of_.end()) {
+    for (const protocol::GameId id : own->second) {
+      bots_.need(id, live_game(id)->record().agents);
+    }
   }
   return *agent;
 }
 
-// One process a game as long as the bound allows, then the least busy one; of two as busy the one
-// that was chosen longer ago, for a game shows only once it is stored.
-std::optional<storage::AgentId> Arena::house_opponent(const std::string& bot) {
+std::optional<std::string> Arena::why_no_house_opponent(storage::AgentId from,
+                                                        const std::string& bot) const {
   const auto& known = settings_.house_bots;
-  if (std::find(known.begin(), known.end(), bot) == known.end()) {
-    return std::nullopt;
+  if (bots_.bound() == 0) {
+    return "the name of an agent: this server employs no house bots (max_house_bots = 0)";
   }
-  std::optional<storage::AgentId> least;
-  std::pair<std::size_t, std::uint64_t> least_busy{};
+  if (std::find(known.begin(), known.end(), bot) == known.end()) {
+    return fmt::format("one of house:{}", fmt::join(known, ", house:"));
+  }
+  if (bots_.bound() == 1 && bots_.employs(from)) {
+    return "the name of another agent: this server plays one house bot at a time "
+           "(max_house_bots = 1), and the challenger is one";
+  }
+  return std::nullopt;
+}
+
+// One process a game as long as the bound allows, then the least busy one that has a place; of two
+// as busy the one that was chosen longer ago, for a game shows only once it is stored.
+tl::expected<storage::AgentId, std::string> Arena::house_opponent(storage::AgentId from,
+                                                                  const std::string& bot) {
+  if (auto reason = why_no_house_opponent(from, bot)) {
+    return tl::unexpected(std::move(*reason));
+  }
+  std::optional<storage::AgentId> best;
+  std::tuple<bool, std::size_t, std::uint64_t> least{};
   for (std::uint32_t number = 1; number <= bots_.bound(); ++number) {
     const std::string name = number == 1 ? "house:" + bot : fmt::format("house:{}.{}", bot, number);
     const Agent* agent = book_.named(name);
-    if (agent == nullptr && !(bots_.full() && least)) {
-      agent = &house_agent(name, {.bot = bot});
+    if (agent == nullptr && best && bots_.full()) {
+      break;  // one more would wait
     }
     if (agent == nullptr) {
-      break;
+      agent = &house_agent(name, {.bot = bot});
     }
     const auto own = games_of_.find(agent->id());
-    const std::pair busy{own == games_of_.end() ? 0 : own->second.size(),
-                         house_choices_[agent->id()]};
-    if (!least || busy < least_busy) {
-      least = agent->id();
-      least_busy = busy;
+    const std::tuple busy{bots_.would_wait(agent->id()),
+                          own == games_of_.end() ? std::size_t{0} : own->second.size(),
+                          house_choices_[agent->id()]};
+    if (!best || busy < least) {
+      best = agent->id();
+      least = busy;
     }
-    if (busy.first == 0 && busy.second == 0) {
+    if (least == std::tuple{false, std::size_t{0}, std::uint64_t{0}}) {
       break;
     }
   }
-  if (least) {
-    house_choices_[*least] = ++house_choice_;
-  }
-  return least;
+  house_choices_[*best] = ++house_choice_;
+  return *best;
 }
 
 }  // namespace poolhall::net

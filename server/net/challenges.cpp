@@ -188,9 +188,9 @@ protocol::Expected<storage::AgentId> Challenges::opponent_of(storage::AgentId fr
                                 fmt::format("got \"{}\", expected {}", name, expected)});
   };
   if (name.starts_with(house_prefix)) {
-    const auto agent = outside_.house_agent(name.substr(house_prefix.size()));
+    const auto agent = outside_.house_agent(from, name.substr(house_prefix.size()));
     if (!agent) {
-      return unknown("a bot of the house, such as \"house:greedy\"");
+      return unknown(agent.error());
     }
     return *agent;
   }

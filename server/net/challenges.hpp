@@ -21,9 +21,10 @@ namespace poolhall::net {
 class Challenges {
  public:
   struct Outside {
-    // The house's agent to play a bot of that name, made known if need be; nothing if there is no
-    // such bot.
-    std::function<std::optional<storage::AgentId>(const std::string& bot)> house_agent;
+    // The house's agent to play a bot of that name, made known if need be; else what was expected.
+    std::function<tl::expected<storage::AgentId, std::string>(storage::AgentId from,
+                                                              const std::string& bot)>
+        house_agent;
     // How many games of this agent go on.
     std::function<std::size_t(storage::AgentId agent)> games_of;
   };

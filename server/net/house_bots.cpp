@@ -7,6 +7,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <iterator>
 #include <utility>
 
 #include "server/net/child_process.hpp"
@@ -23,6 +24,14 @@ constexpr std::chrono::seconds idle_time{30};
 constexpr std::chrono::seconds long_enough{60};
 constexpr std::chrono::milliseconds first_restart{200};
 constexpr std::uint32_t most_doublings = 6;
+// How long a process that is dismissed may take to go.
+constexpr std::chrono::seconds parting_time{5};
+
+// A command's process may have children.
+void signal_all(pid_t pid, int signal) {
+  kill(-pid, signal);
+  kill(pid, signal);
+}
 
 }  // namespace
 
@@ -35,7 +44,7 @@ HouseBots::~HouseBots() {
 
 void HouseBots::configure(Settings settings) {
   settings_ = std::move(settings);
-  start_waiting();
+  give_places();
 }
 
 void HouseBots::employ(AgentBook& book, Agent& agent, HousePlayer player) {
@@ -47,55 +56,178 @@ void HouseBots::employ(AgentBook& book, Agent& agent, HousePlayer player) {
   }
 }
 
-bool HouseBots::employs(storage::AgentId agent) const {
-  return employees_.count(agent) > 0;
-}
-
 std::size_t HouseBots::running() const {
   return static_cast<std::size_t>(
       std::count_if(employees_.begin(), employees_.end(),
                     [](const auto& entry) { return entry.second.process.has_value(); }));
 }
 
-void HouseBots::need(storage::AgentId agent) {
-  const auto found = employees_.find(agent);
-  if (found == employees_.end() || stopped_) {
-    return;
-  }
-  found->second.needed = true;
-  found->second.dismissal.cancel();
-  start_waiting();
+std::size_t HouseBots::places_taken() const {
+  return static_cast<std::size_t>(
+      std::count_if(employees_.begin(), employees_.end(),
+                    [](const auto& entry) { return entry.second.games > 0; }));
 }
 
-void HouseBots::release(storage::AgentId agent) {
-  const auto found = employees_.find(agent);
-  if (found == employees_.end()) {
-    return;
-  }
-  found->second.needed = false;
-  found->second.dismissal =
-      deadlines_.at(steady_clock::now() + idle_time, [&employee = found->second] {
-        if (employee.process) {
-          kill(employee.process->pid, SIGTERM);
-        }
-      });
+std::size_t HouseBots::lacking(const Players& players) const {
+  return static_cast<std::size_t>(
+      std::count_if(players.begin(), players.end(),
+                    [this](storage::AgentId agent) { return employees_.at(agent).games == 0; }));
 }
 
-// Those that are needed and not there, as far as the bound allows.
-void HouseBots::start_waiting() {
+bool HouseBots::would_wait(storage::AgentId agent) const {
+  const auto found = employees_.find(agent);
+  const bool has_place = found != employees_.end() && found->second.games > 0;
+  return !has_place && full();
+}
+
+void HouseBots::need(protocol::GameId game, const std::array<storage::AgentId, 2>& agents) {
+  Players players;
+  std::copy_if(agents.begin(), agents.end(), std::back_inserter(players),
+               [this](storage::AgentId agent) { return employs(agent); });
+  if (players.empty() || stopped_) {
+    return;
+  }
+  Players& known = games_[game];
+  if (known == players) {
+    return;
+  }
+  take_back(game, known);
+  known = std::move(players);
+  waiting_.insert(game);
+  give_places();
+}
+
+void HouseBots::release(protocol::GameId game) {
+  const auto found = games_.find(game);
+  if (found == games_.end()) {
+    return;
+  }
+  const Players players = std::move(found->second);
+  games_.erase(found);
+  take_back(game, players);
+  give_places();
+}
+
+void HouseBots::take_back(protocol::GameId game, const Players& players) {
+  if (waiting_.erase(game) == 0) {
+    promised_.erase(game);
+    let_go(players);
+  }
+}
+
+void HouseBots::let_go(const Players& players) {
+  for (const storage::AgentId agent : players) {
+    Employee& employee = employees_.at(agent);
+    if (--employee.games > 0) {
+      continue;
+    }
+    employee.dismissal = deadlines_.at(steady_clock::now() + idle_time, [this, &employee] {
+      if (employee.process) {
+        dismiss(*employee.process);
+      }
+    });
+  }
+}
+
+void HouseBots::give_places() {
+  std::size_t taken = places_taken();
+  bool one_waits = false;  // nobody overtakes it, but with bots that play already
+  for (auto next = waiting_.begin(); next != waiting_.end();) {
+    const protocol::GameId game = *next;
+    const Players& players = games_.at(game);
+    const std::size_t lacks = lacking(players);
+    if (lacks > 0 && (one_waits || taken + lacks > settings_.bound)) {
+      tell_waiting(game, players);
+      one_waits = one_waits || players.size() <= settings_.bound;  // else it waits for ever
+      ++next;
+      continue;
+    }
+    for (const storage::AgentId agent : players) {
+      Employee& employee = employees_.at(agent);
+      ++employee.games;
+      employee.dismissal.cancel();
+    }
+    taken += lacks;
+    promised_.insert(game);
+    next = waiting_.erase(next);
+  }
+  start_missing();
+}
+
+void HouseBots::tell_waiting(protocol::GameId game, const Players& players) {
+  for (const storage::AgentId agent : players) {
+    Employee& employee = employees_.at(agent);
+    if (employee.games > 0 || std::exchange(employee.has_waited, true)) {
+      continue;
+    }
+    if (players.size() > settings_.bound) {
+      spdlog::error("house bots: game {} needs {} at a time and stands: max_house_bots is {}",
+                    protocol::number(game), players.size(), settings_.bound);
+    } else {
+      spdlog::warn("house bots: agent {} waits for one of {} places (max_house_bots)",
+                   storage::number(agent), settings_.bound);
+    }
+  }
+}
+
+// The processes of those that have places.
+void HouseBots::start_missing() {
   if (stopped_ || settings_.server.empty()) {
     return;
   }
+  auto leaving = std::count_if(employees_.begin(), employees_.end(), [](const auto& entry) {
+    return entry.second.games == 0 && entry.second.process && entry.second.process->dismissed;
+  });
   for (auto& [agent, employee] : employees_) {
-    if (employee.needed && !employee.process && !employee.restart.is_set()) {
-      if (full()) {
-        spdlog::warn("house bots: {} run already, agent {} waits", settings_.bound,
-                     storage::number(agent));
-        return;
-      }
+    if (employee.games == 0 || employee.process || employee.restart.is_set()) {
+      continue;
+    }
+    if (running() < settings_.bound) {
       start(agent, employee);
+    } else if (leaving > 0) {
+      --leaving;  // it starts when that one has gone
+    } else {
+      dismiss_an_idle_one();
     }
   }
+  keep_promises();
+}
+
+void HouseBots::keep_promises() {
+  const auto can_come = [this](storage::AgentId agent) {
+    const Employee& employee = employees_.at(agent);
+    return employee.process ? !employee.process->dismissed : employee.restart.is_set();
+  };
+  std::vector<protocol::GameId> kept;
+  std::copy_if(promised_.begin(), promised_.end(), std::back_inserter(kept),
+               [&](protocol::GameId game) {
+                 const Players& players = games_.at(game);
+                 return std::all_of(players.begin(), players.end(), can_come);
+               });
+  for (const protocol::GameId game : kept) {
+    promised_.erase(game);
+  }
+  for (const protocol::GameId game : kept) {
+    if (on_places_) {
+      on_places_(game);
+    }
+  }
+}
+
+void HouseBots::dismiss_an_idle_one() {
+  for (auto& [agent, employee] : employees_) {
+    if (employee.games == 0 && employee.process && !employee.process->dismissed) {
+      dismiss(*employee.process);
+      return;
+    }
+  }
+}
+
+void HouseBots::dismiss(Process& process) {
+  process.dismissed = true;
+  signal_all(process.pid, SIGTERM);
+  process.last_resort = deadlines_.at(steady_clock::now() + parting_time,
+                                      [pid = process.pid] { signal_all(pid, SIGKILL); });
 }
 
 void HouseBots::start(storage::AgentId agent, Employee& employee) {
@@ -123,21 +255,25 @@ void HouseBots::start(storage::AgentId agent, Employee& employee) {
 
 void HouseBots::died(storage::AgentId agent, pid_t pid) {
   Employee& employee = employees_[agent];
+  bool dismissed = false;
   if (pid != 0) {
     int status = 0;
     waitpid(pid, &status, 0);
+    dismissed = employee.process->dismissed;
     employee.process.reset();
     spdlog::info("house bot {} for agent {} (process {}) has ended, status {}", employee.player.bot,
                  storage::number(agent), pid, status);
   }
-  const SteadyTime now = steady_clock::now();
-  employee.deaths = now - employee.started > long_enough ? 0 : employee.deaths + 1;
-  const auto wait = first_restart * (1U << std::min(employee.deaths, most_doublings));
-  employee.restart = deadlines_.at(now + wait, [this, agent] {
-    employees_[agent].restart.cancel();
-    start_waiting();
-  });
-  start_waiting();  // another one may have waited for the place
+  if (!dismissed) {
+    const SteadyTime now = steady_clock::now();
+    employee.deaths = now - employee.started > long_enough ? 0 : employee.deaths + 1;
+    const auto wait = first_restart * (1U << std::min(employee.deaths, most_doublings));
+    employee.restart = deadlines_.at(now + wait, [this, agent] {
+      employees_[agent].restart.cancel();
+      start_missing();
+    });
+  }
+  start_missing();  // another one may have waited for the process to go
 }
 
 std::vector<std::string> HouseBots::command_line(storage::AgentId agent,
@@ -180,8 +316,7 @@ void HouseBots::stop() {
     employee.dismissal.cancel();
     if (employee.process) {
       // They keep nothing: what they would still do, nobody hears.
-      kill(-employee.process->pid, SIGKILL);
-      kill(employee.process->pid, SIGKILL);
+      signal_all(employee.process->pid, SIGKILL);
       waitpid(employee.process->pid, nullptr, 0);
       employee.process.reset();
     }

@@ -51,8 +51,8 @@ void LiveGame::start_waited_enough() {
   if (halted_ || game_.phase() != Phase::due) {
     return;
   }
-  if (suspended_) {
-    await_agents();  // nobody may be able to come
+  if (suspended_ || !services_.has_places(record().id)) {
+    await_agents();  // not everybody may be able to come
     return;
   }
   const bool first_here = session_of(Seat::first) != nullptr;
@@ -65,7 +65,16 @@ void LiveGame::start_waited_enough() {
   }
 }
 
+void LiveGame::places_given() {
+  if (awaiting_agents_ && arrival_deadline_.is_set() && game_.phase() == Phase::due) {
+    await_agents();  // from now on
+  }
+}
+
 bool LiveGame::all_needed_are_in() const {
+  if (!services_.has_places(record().id)) {
+    return false;  // one that plays another game of its own may be gone before this one is over
+  }
   if (start_ == Start::resume) {
     return session_of(game_.state().to_move) != nullptr;
   }
@@ -374,22 +383,6 @@ void LiveGame::answer_from(const storage::TurnRecord& row, const GameRequest& re
     answer_from_row(row, request.asker, request.seat, *decide);
   } else {
     request.asker.refuse({ErrorCode::game_over, "/params/game", "the game is over", record().id});
-  }
-}
-
-void answer_from_row(const storage::TurnRecord& row, const Asker& asker, Seat seat,
-                     const std::variant<protocol::Shot, protocol::Decide>& what) {
-  const Side side = side_of(seat, asker.session.lock());
-  const auto* shot = std::get_if<protocol::Shot>(&what);
-  const auto conflict = shot != nullptr ? match::repeated_shot(row, seat, *shot)
-                                        : match::repeated_decision(row, seat, std::get<1>(what));
-  if (conflict) {
-    asker.refuse(*conflict);
-  } else if (shot != nullptr) {
-    asker.reply(protocol::ShotReply<Outgoing>{shot_of(row, side), protocol::Repetition::duplicate});
-  } else {
-    asker.reply(
-        protocol::DecideReply<Outgoing>{decision_of(row, side), protocol::Repetition::duplicate});
   }
 }
 

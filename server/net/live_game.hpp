@@ -41,6 +41,8 @@ struct GameServices {
   std::function<void(LiveGame&)> on_over;
   // Nothing is in flight any more; only asked for once the server stops.
   std::function<void()> on_quiet;
+  // Whether the bots of the house that play it can come; if not, `places_given` is called later.
+  std::function<bool(protocol::GameId)> has_places;
   // A turn is stored and told to its players; for those who only watch.
   std::function<void(const LiveGame&, const storage::TurnRecord&)> on_turn{};
 };
@@ -75,6 +77,8 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   void take(const GameRequest& request);
   void sync(const Asker& asker, Seat seat) const;
   void reveal(const Asker& asker, Seat seat, const protocol::GameReveal& request);
+  // The bots of the house that play it can come now.
+  void places_given();
   // A session of this player's is new: all that a bot without memory needs.
   void agent_came(Seat seat);
   // Whether this is the answer to the turn that waits for it.

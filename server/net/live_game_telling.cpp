@@ -149,4 +149,20 @@ void LiveGame::push(Seat seat, const Notification& notification) const {
   }
 }
 
+void answer_from_row(const storage::TurnRecord& row, const Asker& asker, Seat seat,
+                     const std::variant<protocol::Shot, protocol::Decide>& what) {
+  const Side side = side_of(seat, asker.session.lock());
+  const auto* shot = std::get_if<protocol::Shot>(&what);
+  const auto conflict = shot != nullptr ? match::repeated_shot(row, seat, *shot)
+                                        : match::repeated_decision(row, seat, std::get<1>(what));
+  if (conflict) {
+    asker.refuse(*conflict);
+  } else if (shot != nullptr) {
+    asker.reply(protocol::ShotReply<Outgoing>{shot_of(row, side), protocol::Repetition::duplicate});
+  } else {
+    asker.reply(
+        protocol::DecideReply<Outgoing>{decision_of(row, side), protocol::Repetition::duplicate});
+  }
+}
+
 }  // namespace poolhall::net

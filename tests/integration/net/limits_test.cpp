@@ -423,6 +423,11 @@ TEST_F(LimitsTest, NobodyChallengesWhomThereIsNot) {
     challenge.opponent = opponent;
     EXPECT_EQ(anna.refused(challenge).code, "unknown_agent") << opponent;
   }
+  protocol::Challenge challenge;
+  challenge.opponent = "house:nobody";
+  EXPECT_EQ(anna.refused(challenge).error.reason,
+            "unknown_agent: got \"house:nobody\", expected one of house:random, house:greedy, "
+            "house:planner");
 }
 
 }  // namespace
