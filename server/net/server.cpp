@@ -277,6 +277,7 @@ tl::expected<void, std::string> Server::Impl::open_database() {
 tl::expected<void, std::string> Server::Impl::open_desk() {
   desk_ = std::make_unique<TournamentDesk>(
       arena_->host(), arena_->matches(),
+      HouseOffer{options_.house_bots, options_.settings.max_house_bots},
       [this](const std::string& tournament) { arena_->call_off_games_of(tournament); },
       [] { return std::chrono::steady_clock::now(); });
   std::optional<std::string> token;

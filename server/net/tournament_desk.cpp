@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <variant>
 
 #include "server/net/tokens.hpp"
 #include "server/settings/tournament_settings.hpp"
@@ -116,8 +117,13 @@ tl::unexpected<DeskRefusal> wrong_status(const TournamentCard& card, std::string
 
 }  // namespace
 
-TournamentDesk::TournamentDesk(MatchHost& host, Matches& matches, CallOff call_off, Now now)
-    : host_(host), matches_(matches), call_off_(std::move(call_off)), now_(std::move(now)) {}
+TournamentDesk::TournamentDesk(MatchHost& host, Matches& matches, HouseOffer house,
+                               CallOff call_off, Now now)
+    : host_(host),
+      matches_(matches),
+      house_(std::move(house)),
+      call_off_(std::move(call_off)),
+      now_(std::move(now)) {}
 
 TournamentDesk::~TournamentDesk() = default;
 
@@ -167,6 +173,9 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::create(const std::string&
     return refused(Kind::conflict,
                    fmt::format("there is a tournament \"{}\" with other settings", settings->name));
   }
+  if (auto reason = why_not_housed(*settings)) {
+    return refused(Kind::bad_settings, std::move(*reason));
+  }
   // The racks' seed is part of what is stored, so that a restart plays the same racks.
   const std::string stored =
       settings->seed ? text : fmt::format("seed = {}\n{}", random_seed(), text);
@@ -174,6 +183,28 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::create(const std::string&
       host_.open_tournament({settings->name, settings->name, stored, TournamentStatus::open});
   enter_all(card);
   return card;
+}
+
+std::optional<std::string> TournamentDesk::why_not_housed(
+    const settings::TournamentSettings& settings) const {
+  std::uint32_t played_here = 0;
+  for (const settings::EntrySettings& entry : settings.entries) {
+    played_here += std::holds_alternative<settings::AgentEntry>(entry.player) ? 0 : 1;
+    const auto* house = std::get_if<settings::HouseEntry>(&entry.player);
+    if (house != nullptr &&
+        std::find(house_.bots.begin(), house_.bots.end(), house->bot) == house_.bots.end()) {
+      return fmt::format("tournament: entry \"{}\": got house = \"{}\", expected one of {}",
+                         entry.name, house->bot, fmt::join(house_.bots, ", "));
+    }
+  }
+  const std::uint32_t needed = std::min(played_here, 2U);
+  if (needed > house_.most) {
+    return fmt::format(
+        "tournament: got {} entries with house or command, a game of theirs needs {} of this "
+        "server's processes, expected max_house_bots >= {}, it is {}",
+        played_here, needed, needed, house_.most);
+  }
+  return std::nullopt;
 }
 
 void TournamentDesk::enter_all(const TournamentCard& card) {
@@ -234,6 +265,12 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::start(const std::string& 
     return refused(Kind::conflict, fmt::format("tournament \"{}\" has {} entries that have not "
                                                "left, expected 2 at least",
                                                id, there));
+  }
+  // The server may have been started anew since, with other bots.
+  if (const auto settings = settings::parse_tournament(card->settings, id)) {
+    if (auto reason = why_not_housed(*settings)) {
+      return refused(Kind::conflict, std::move(*reason));
+    }
   }
   return drive(*card);
 }

@@ -1,18 +1,21 @@
 // The tournaments of a serving host: made, started, held, ended by the host's calls, and taken up
 // again after a restart. Each has a driver of its own.
 //
-//   TournamentDesk desk{host, matches, [] { return std::chrono::steady_clock::now(); }};
+//   TournamentDesk desk{host, matches, {{"greedy"}, 16}, call_off, steady_clock::now};
 //   desk.take_up();
 //   if (auto made = desk.create(toml_text); made) desk.start(made->id);
 //
 // The network thread's own.
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <map>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include <tl/expected.hpp>
 
@@ -29,6 +32,12 @@ struct DeskRefusal {
   std::string reason;  // one line: what came and what was expected
 };
 
+// Who can play for the house.
+struct HouseOffer {
+  std::vector<std::string> bots;  // by name
+  std::uint32_t most = 0;         // processes at a time, entries' commands too
+};
+
 class TournamentDesk {
  public:
   template <class T>
@@ -37,7 +46,7 @@ class TournamentDesk {
   // Ends games that go on, of that tournament.
   using CallOff = std::function<void(const std::string& tournament)>;
 
-  TournamentDesk(MatchHost& host, Matches& matches, CallOff call_off, Now now);
+  TournamentDesk(MatchHost& host, Matches& matches, HouseOffer house, CallOff call_off, Now now);
   ~TournamentDesk();
   TournamentDesk(const TournamentDesk&) = delete;
   TournamentDesk& operator=(const TournamentDesk&) = delete;
@@ -62,6 +71,9 @@ class TournamentDesk {
     std::unique_ptr<TournamentDriver> driver;
   };
 
+  // Why the house cannot play these entries: a bot that there is not, too few processes.
+  [[nodiscard]] std::optional<std::string> why_not_housed(
+      const settings::TournamentSettings& settings) const;
   [[nodiscard]] Result<TournamentCard> card_of(const std::string& id) const;
   void enter_all(const TournamentCard& card);
   [[nodiscard]] Result<TournamentCard> drive(const TournamentCard& card);
@@ -69,6 +81,7 @@ class TournamentDesk {
 
   MatchHost& host_;
   Matches& matches_;
+  HouseOffer house_;
   CallOff call_off_;
   Now now_;
   std::map<std::string, Running> running_;

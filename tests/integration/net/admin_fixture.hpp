@@ -28,6 +28,7 @@ class AdminFixture : public ::testing::Test {
     options.settings.http_name = "pool.example.org";
     options.settings.admin_token_file = (directory_ / "token").string();
     options.settings.registration = registration_;
+    options.settings.max_house_bots = max_house_bots_;
     options.stored_tournaments = net::StoredTournaments::taken_up;
     server_ = std::make_unique<TestServer>(options);
   }
@@ -40,6 +41,7 @@ class AdminFixture : public ::testing::Test {
   const std::string token_ = "a-token-for-this-test-only";
   test_support::TemporaryDirectory directory_;
   std::string registration_ = "open";
+  std::uint32_t max_house_bots_ = 16;
   std::unique_ptr<TestServer> server_;
 };
 

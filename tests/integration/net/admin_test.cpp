@@ -141,6 +141,31 @@ TEST_F(AdminCalls, TakeATournamentAsJsonToo) {
   EXPECT_EQ(post("tournaments", "{").status, 400);
 }
 
+TEST_F(AdminCalls, RefuseATournamentWithABotThatThereIsNot) {
+  const auto made =
+      post("tournaments", R"({"name":"cup","entry":[{"name":"a","house":"randm"},{"agent":"b"}]})");
+  EXPECT_EQ(made.status, 400);
+  EXPECT_NE(made.body.find(R"(got house = \"randm\", expected one of random, greedy, planner)"),
+            std::string::npos)
+      << made.body;
+}
+
+TEST_F(AdminCalls, RefuseATournamentThatNeedsMoreHouseBotsThanMayRun) {
+  const std::string two = R"({"name":"two","entry":[{"house":"random"},{"house":"greedy"}]})";
+  const std::string one = R"({"name":"one","entry":[{"house":"random"},{"agent":"b"}]})";
+  const std::string stored = R"({"name":"old","entry":[{"house":"random"},{"house":"greedy"}]})";
+  EXPECT_EQ(post("tournaments", stored).status, 201);
+  max_house_bots_ = 1;
+  start();
+  const auto made = post("tournaments", two);
+  EXPECT_EQ(made.status, 400);
+  EXPECT_EQ(member(made.body, "reason"),
+            "tournament: got 2 entries with house or command, a game of theirs needs 2 of this "
+            "server's processes, expected max_house_bots >= 2, it is 1");
+  EXPECT_EQ(post("tournaments", one).status, 201);
+  EXPECT_EQ(post("tournaments/old/start").status, 409);
+}
+
 TEST_F(AdminCalls, HoldATournamentBetweenTwoGamesAcrossARestart) {
   std::string anna_token;
   {
