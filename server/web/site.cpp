@@ -127,8 +127,14 @@ asio::awaitable<Page> Site::stored(const std::string& path) {
 
 asio::awaitable<Page> Site::admin(const Request& request, const std::string& path) {
   AdminRequest asked{path, std::string{request[http::field::authorization]}, request.body()};
-  return awaited_page(
-      [this, asked = std::move(asked)](Then then) { sources_.admin(asked, std::move(then)); });
+  return awaited_page([this, asked = std::move(asked)](Then then) {
+    sources_.admin(asked, [this, then = std::move(then)](Page page) {
+      if (page.status < 300) {
+        kept_.clear();  // whoever has heard that something changed sees it
+      }
+      then(std::move(page));
+    });
+  });
 }
 
 asio::awaitable<Page> Site::simulate(const std::string& body, const std::string& path) {
@@ -150,25 +156,27 @@ void Site::read_shared(const std::string& path, Then then) {
   const auto now = steady_clock::now();
   if (kept_.size() >= most_kept) {
     std::erase_if(kept_, [now](const auto& entry) {
-      return entry.second.waiting.empty() && entry.second.until <= now;
+      return entry.second->waiting.empty() && entry.second->until <= now;
     });
   }
-  Kept& kept = kept_[path];
-  if (kept.waiting.empty() && now < kept.until) {
-    then(kept.page);
+  std::shared_ptr<Kept>& kept = kept_[path];
+  if (kept == nullptr) {
+    kept = std::make_shared<Kept>();
+  }
+  if (kept->waiting.empty() && now < kept->until) {
+    then(kept->page);
     return;
   }
-  kept.waiting.push_back(std::move(then));
-  if (kept.waiting.size() > 1) {
+  kept->waiting.push_back(std::move(then));
+  if (kept->waiting.size() > 1) {
     return;
   }
-  read(path, [this, path, began = now](const Page& page) {
-    Kept& done = kept_[path];
+  read(path, [kept, began = now](const Page& page) {
     const auto ended = steady_clock::now();
-    done.page = page;
-    done.until = ended + std::clamp<steady_clock::duration>(shared_share * (ended - began),
-                                                            shared_for, shared_at_most);
-    for (const Then& next : std::exchange(done.waiting, {})) {
+    kept->page = page;
+    kept->until = ended + std::clamp<steady_clock::duration>(shared_share * (ended - began),
+                                                             shared_for, shared_at_most);
+    for (const Then& next : std::exchange(kept->waiting, {})) {
       next(page);
     }
   });

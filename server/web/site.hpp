@@ -14,6 +14,7 @@
 #include <cstdint>
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -72,7 +73,8 @@ class Site {
   boost::asio::io_context& io_;
   boost::asio::thread_pool& workers_;
   Sources sources_;
-  std::map<std::string, Kept> kept_;                // by path
+  // By path. What is still being made when a host's call is done keeps those who wait for it.
+  std::map<std::string, std::shared_ptr<Kept>> kept_;
   std::map<std::string, TokenBucket> simulations_;  // by address
 };
 

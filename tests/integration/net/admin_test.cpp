@@ -166,6 +166,23 @@ TEST_F(AdminCalls, RefuseATournamentThatNeedsMoreHouseBotsThanMayRun) {
   EXPECT_EQ(post("tournaments/old/start").status, 409);
 }
 
+TEST_F(AdminCalls, AreSeenAtOnceByWhoReadsAPage) {
+  WireClient anna{port()};
+  WireClient bert{port()};
+  anna.join("anna");
+  bert.join("bert");
+  const auto is = [this](const std::string& status) {
+    return http_call(http(), {"GET", "/api/tournaments/cup/status.txt"})
+        .body.starts_with("Tournament cup: " + status);
+  };
+  EXPECT_EQ(post("tournaments", cup_file).status, 201);
+  EXPECT_TRUE(is("open"));
+  EXPECT_EQ(post("tournaments/cup/start").status, 200);
+  EXPECT_TRUE(is("running"));
+  EXPECT_EQ(post("tournaments/cup/abort").status, 200);
+  EXPECT_TRUE(is("aborted"));
+}
+
 TEST_F(AdminCalls, HoldATournamentBetweenTwoGamesAcrossARestart) {
   std::string anna_token;
   {
