@@ -48,8 +48,6 @@ class Outlook {
   // The open lines to the balls that are on, best first; `lines` is filled anew.
   void find_lines(const Position& position, std::vector<PotLine>& lines) const;
 
-  [[nodiscard]] const Prospects& prospects() const { return prospects_; }
-
  private:
   [[nodiscard]] double with_chance(const Position& position, BallMask ball, double chance) const;
   // How good the pockets of a ball are, 0..1, wherever the cue ball may come to lie.

@@ -56,10 +56,6 @@ void Director::end(std::uint32_t pairing) {
   slots_.at(pairing).status = Status::over;
 }
 
-bool Director::is_running(std::uint32_t pairing) const {
-  return slots_.at(pairing).status == Status::running;
-}
-
 bool Director::is_over(std::uint32_t pairing) const {
   return slots_.at(pairing).status == Status::over;
 }

@@ -51,7 +51,6 @@ class Director {
   void end(std::uint32_t pairing);
 
   [[nodiscard]] bool is_known(std::uint32_t pairing) const { return slots_.contains(pairing); }
-  [[nodiscard]] bool is_running(std::uint32_t pairing) const;
   [[nodiscard]] bool is_over(std::uint32_t pairing) const;
   [[nodiscard]] bool all_over() const;
 
