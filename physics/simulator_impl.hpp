@@ -15,7 +15,7 @@ Expected<Simulation<Real>> simulate(const Scene<Real>& scene, const SimulationOp
   }
   if (options.t_max && !(*options.t_max >= 0 && *options.t_max <= 1e9)) {
     return check::refuse(Fault::out_of_range, "/t_max",
-                         "expected 0 to 1e9 seconds, got " + std::to_string(*options.t_max));
+                         "expected 0 to 1e9 seconds, got " + decimal(*options.t_max));
   }
   AdaptiveLoop<Real> loop(scene.table, scene.materials);
   Recorder<Real> recorder;

@@ -73,14 +73,15 @@ std::string names_of(const std::vector<std::string>& names) {
   return list;
 }
 
-physics::Table table_of_preset(const JsonNode& node) {
+// `other` is what may stand in the name's place.
+physics::Table table_of_preset(const JsonNode& node, const std::string& other = "") {
   return node.one_of(physics::preset_table,
-                     "an object or one of " + names_of(physics::preset_table_names()));
+                     other + "one of " + names_of(physics::preset_table_names()));
 }
 
-physics::Materials materials_of_preset(const JsonNode& node) {
+physics::Materials materials_of_preset(const JsonNode& node, const std::string& other = "") {
   return node.one_of(physics::preset_materials,
-                     "an object or one of " + names_of(physics::preset_material_names()));
+                     other + "one of " + names_of(physics::preset_material_names()));
 }
 
 void read_spots(const JsonNode& node, physics::Table& table) {
@@ -253,7 +254,7 @@ void read_ball_friction(const JsonNode& node, physics::Materials& materials) {
 
 physics::Table read_table(const JsonNode& node, UnknownKeys unknown) {
   if (!node.is_object()) {
-    return table_of_preset(node);
+    return table_of_preset(node, "an object or ");
   }
   refuse_unknown(
       node, unknown,
@@ -275,7 +276,7 @@ physics::Table read_table(const JsonNode& node, UnknownKeys unknown) {
 
 physics::Materials read_materials(const JsonNode& node, UnknownKeys unknown) {
   if (!node.is_object()) {
-    return materials_of_preset(node);
+    return materials_of_preset(node, "an object or ");
   }
   refuse_unknown(node, unknown,
                  {"preset", "name", "gravity", "ball_radius", "ball_mass", "mu_slide", "mu_roll",

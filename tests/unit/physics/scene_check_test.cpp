@@ -57,6 +57,9 @@ TEST(CheckScene, TellsNumbersAsTheyWereGiven) {
   scene = scene_with();
   scene.balls[0].position.x = 1e-9;
   EXPECT_EQ(refusal(scene).reason, "expected a place on the table, 1e-09 is beyond the rail");
+  const auto result = simulate(scene_with(), {.t_max = 1e300});
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().reason, "expected 0 to 1e9 seconds, got 1e+300");
 }
 
 TEST(CheckScene, RefusesOverlapButNotWhatRoundingLeaves) {

@@ -76,6 +76,18 @@ TEST(SceneJson, NamesTheFieldThatDoesNotFit) {
             "/physics/mu_roll");
 }
 
+TEST(SceneJson, TellsWhatMayStandInThePlaceOfAPreset) {
+  const auto reason = [](const std::string& key, const std::string& value) {
+    const Error error = refused(with("\"" + key + "\":\"olympiad\"", "\"" + key + "\":" + value));
+    return error.field + " " + error.reason;
+  };
+  for (const std::string key : {"table", "physics"}) {
+    EXPECT_TRUE(reason(key, "7").starts_with("/" + key + " expected an object or one of \""));
+    EXPECT_TRUE(
+        reason(key, R"({"preset":{}})").starts_with("/" + key + "/preset expected one of \""));
+  }
+}
+
 TEST(SceneJson, AllowsAPocketOnlyInsteadOfAPlace) {
   const std::string ball = R"("x":0.5,"y":1.5,"vx":0.1)";
   const auto down = decode_scene(with(ball, R"("pocket":"side_left","state":"pocketed")"));
