@@ -3,13 +3,13 @@
 
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <string>
 
 #include "protocol/judge_document.hpp"
 #include "server/app/commands.hpp"
 #include "server/app/exit_codes.hpp"
+#include "server/app/input.hpp"
 
 namespace poolhall::app {
 namespace {
@@ -28,16 +28,11 @@ int judge_one(const std::string& source, const std::string& text) {
 
 int run_judge(const std::string& source) {
   std::ifstream file;
-  if (source != "-") {
-    file.open(source, std::ios::binary);
-    if (!file) {
-      std::cerr << source << ": cannot be read, expected a JSON file or -\n";
-      return wrong_input;
-    }
+  const auto text = text_of(input_of(source, file));
+  if (!text) {
+    return cannot_read(source, "a JSON file");
   }
-  std::istream& in = source == "-" ? std::cin : file;
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const int code = judge_one(source, text);
+  const int code = judge_one(source, *text);
   std::cout.flush();
   if (!std::cout) {
     std::cerr << "judge: cannot write the ruling\n";

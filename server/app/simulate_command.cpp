@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <fstream>
 #include <iostream>
-#include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
@@ -13,6 +12,7 @@
 #include "protocol/scene_json.hpp"
 #include "server/app/commands.hpp"
 #include "server/app/exit_codes.hpp"
+#include "server/app/input.hpp"
 #include "server/app/scene_run.hpp"
 #include "server/app/table_svg.hpp"
 
@@ -68,8 +68,11 @@ int write_svg(const std::string& path, const SceneOutcome& outcome) {
 }
 
 int simulate_one(std::istream& in, const SimulateArguments& arguments) {
-  const std::string text{std::istreambuf_iterator<char>(in), {}};
-  const auto outcome = simulate_text(text);
+  const auto text = text_of(in);
+  if (!text) {
+    return cannot_read(arguments.scene, "a scene file");
+  }
+  const auto outcome = simulate_text(*text);
   if (!outcome) {
     complain(arguments.scene, outcome.error());
     return wrong_input;
@@ -107,20 +110,13 @@ int simulate_lines(std::istream& in, const SimulateArguments& arguments) {
     std::cout << outcome->run.text << '\n';
     code = code == wrong_input ? code : std::max(code, exit_code_of(*outcome));
   }
-  return code;
+  return in.eof() && !in.bad() ? code : cannot_read(arguments.scene, "a scene file");
 }
 
 int run_simulate(const SimulateArguments& arguments) {
   std::ios::sync_with_stdio(false);
   std::ifstream file;
-  if (arguments.scene != "-") {
-    file.open(arguments.scene, std::ios::binary);
-    if (!file) {
-      std::cerr << arguments.scene << ": cannot be read, expected a scene file or -\n";
-      return wrong_input;
-    }
-  }
-  std::istream& in = arguments.scene == "-" ? std::cin : file;
+  std::istream& in = input_of(arguments.scene, file);
   const int code = arguments.lines ? simulate_lines(in, arguments) : simulate_one(in, arguments);
   std::cout.flush();
   if (!std::cout) {

@@ -128,6 +128,9 @@ void time_scene_file(const std::filesystem::path& file, std::ostream& out) {
     }));
     events.push_back(loop.events());
   }
+  if (in.bad()) {  // a folder can be opened, but not read
+    throw std::invalid_argument("cannot read " + file.string());
+  }
   ReportTable table("Run time of the scenes in " + file.string() + ", event log off",
                     {"scenes", "us a shot, median", "p90", "events, median"});
   table.add({std::to_string(times.size()), cell(quantile(times, .5)), cell(quantile(times, .9)),

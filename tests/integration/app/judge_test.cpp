@@ -54,5 +54,15 @@ TEST(JudgeCommand, NamesAFileThatCannotBeRead) {
   EXPECT_TRUE(ran.err.starts_with("/no/such/file.json: ")) << ran.err;
 }
 
+TEST(JudgeCommand, RefusesAFolder) {
+  for (const char* arguments : {"/", "- < /"}) {
+    const Ran ran = judge("shot", arguments);
+    EXPECT_EQ(ran.exit_code, 2) << arguments;
+    EXPECT_EQ(ran.out, "") << arguments;
+    EXPECT_NE(ran.err.find(": cannot be read, expected a JSON file or -\n"), std::string::npos)
+        << ran.err;
+  }
+}
+
 }  // namespace
 }  // namespace poolhall

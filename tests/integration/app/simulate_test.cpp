@@ -141,8 +141,23 @@ TEST_F(Simulate, BenchTimesTheSameFileAndRefusesAsItDoes) {
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.err.find("bad.jsonl:2: /t_max: "), std::string::npos) << wrong.err;
   EXPECT_EQ(bench_speed("nowhere.jsonl").exit_code, 2);
+  const Ran folder = bench_speed("/");
+  EXPECT_EQ(folder.exit_code, 2);
+  EXPECT_NE(folder.err.find("cannot read /"), std::string::npos) << folder.err;
 }
 #endif
+
+TEST_F(Simulate, RefusesAFolderAsItDoesAFileThatIsNotThere) {
+  for (const char* arguments : {"/", "--lines /", "- < /", "--lines - < /"}) {
+    const Ran ran = simulate(arguments);
+    EXPECT_EQ(ran.exit_code, 2) << arguments;
+    EXPECT_EQ(ran.out, "") << arguments;
+    const std::string source = std::string(arguments).find("- <") == std::string::npos ? "/" : "-";
+    EXPECT_EQ(ran.err, source + ": cannot be read, expected a scene file or -\n") << arguments;
+  }
+  EXPECT_EQ(simulate("nowhere.json").err,
+            "nowhere.json: cannot be read, expected a scene file or -\n");
+}
 
 TEST_F(Simulate, DrawsAPicture) {
   input_ = scene();
