@@ -121,21 +121,22 @@ double pair_log_likelihood_ratio(const PairCounts& counts, const SprtSettings& s
   return pairs * ratio;
 }
 
-SprtState sprt(const std::vector<double>& scores, const SprtSettings& settings) {
-  SprtState state;
+SprtState sprt(const std::vector<double>& scores, const SprtSettings& settings,
+               const SprtState& so_far) {
+  SprtState state = so_far;
   state.lower = std::log(settings.beta / (1 - settings.alpha));
   state.upper = std::log((1 - settings.beta) / settings.alpha);
-  PairCounts counts;
-  for (std::size_t i = 0; i + 1 < scores.size(); i += 2) {
-    ++counts.by_points[static_cast<std::size_t>(std::lround(2 * (scores[i] + scores[i + 1])))];
+  for (std::size_t i = 0; i + 1 < scores.size() && state.verdict == SprtVerdict::undecided;
+       i += 2) {
+    ++state.counts
+          .by_points[static_cast<std::size_t>(std::lround(2 * (scores[i] + scores[i + 1])))];
     ++state.pairs;
-    state.log_likelihood_ratio = pair_log_likelihood_ratio(counts, settings);
+    state.log_likelihood_ratio = pair_log_likelihood_ratio(state.counts, settings);
     if (state.pairs < least_pairs) {
       continue;
     }
     if (state.log_likelihood_ratio <= state.lower || state.log_likelihood_ratio >= state.upper) {
       state.verdict = state.log_likelihood_ratio >= state.upper ? SprtVerdict::h1 : SprtVerdict::h0;
-      return state;
     }
   }
   return state;

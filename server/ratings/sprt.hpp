@@ -48,11 +48,14 @@ struct SprtState {
   double lower = 0;         // H0 at or below
   double upper = 0;         // H1 at or above
   std::uint32_t pairs = 0;  // counted, up to the verdict
+  PairCounts counts{};      // of these pairs
 };
 
 // The generalised sequential probability ratio test (Wald 1945 with the maximum likelihood of
-// each hypothesis) over pairs in this order; what comes after the verdict does not count.
-[[nodiscard]] SprtState sprt(const std::vector<double>& scores, const SprtSettings& settings);
+// each hypothesis) over pairs in this order; what comes after the verdict does not count. Goes on
+// from `so_far`, the state after the pairs before these.
+[[nodiscard]] SprtState sprt(const std::vector<double>& scores, const SprtSettings& settings,
+                             const SprtState& so_far = {});
 
 // The log likelihood ratio of these pairs.
 [[nodiscard]] double pair_log_likelihood_ratio(const PairCounts& counts,

@@ -1,7 +1,9 @@
 #include "server/tournament/director.hpp"
 
 #include <algorithm>
-#include <set>
+#include <cstddef>
+#include <limits>
+#include <utility>
 
 namespace poolhall::tournament {
 
@@ -11,83 +13,107 @@ Director::Director(const std::vector<Pairing>& schedule, ConcurrencyLimits limit
 }
 
 void Director::plan(const std::vector<Pairing>& schedule) {
-  std::set<std::uint32_t> planned;
-  for (const Pairing& pairing : schedule) {
-    planned.insert(pairing.number);
-    Slot& slot = slots_[pairing.number];
-    if (slot.status == Status::waiting) {
-      slot.pairing = pairing;
+  std::vector<Slot> planned;
+  planned.reserve(schedule.size());
+  auto known = slots_.cbegin();
+  const auto keep_begun_before = [&](std::uint32_t number) {
+    for (; known != slots_.cend() && known->pairing.number < number; ++known) {
+      if (known->status != Status::waiting) {
+        planned.push_back(*known);
+      }
     }
+  };
+  for (const Pairing& pairing : schedule) {
+    keep_begun_before(pairing.number);
+    const bool is_known = known != slots_.cend() && known->pairing.number == pairing.number;
+    planned.push_back(is_known && known->status != Status::waiting ? *known : Slot{pairing});
+    known += is_known ? 1 : 0;
   }
-  std::erase_if(slots_, [&](const auto& slot) {
-    return slot.second.status == Status::waiting && !planned.contains(slot.first);
-  });
+  keep_begun_before(std::numeric_limits<std::uint32_t>::max());
+  slots_ = std::move(planned);
 }
 
 std::vector<Pairing> Director::begin_due() {
+  std::uint32_t running = 0;
+  std::vector<std::uint32_t> of_entry;                                   // games that go on
+  std::uint32_t open_round = std::numeric_limits<std::uint32_t>::max();  // the first that goes on
+  for (const Slot& slot : slots_) {
+    of_entry.resize(
+        std::max({of_entry.size(), index(slot.pairing.first) + 1, index(slot.pairing.second) + 1}));
+    if (slot.status == Status::running) {
+      ++running;
+      ++of_entry[index(slot.pairing.first)];
+      ++of_entry[index(slot.pairing.second)];
+    }
+    if (slot.status != Status::over) {
+      open_round = std::min(open_round, slot.pairing.round);
+    }
+  }
   std::vector<Pairing> due;
-  for (auto& [number, slot] : slots_) {
-    if (slot.status == Status::waiting && may_begin(slot.pairing)) {
+  for (Slot& slot : slots_) {
+    if (running >= limits_.games) {
+      break;
+    }
+    const Pairing& pairing = slot.pairing;
+    std::uint32_t& of_first = of_entry[index(pairing.first)];
+    std::uint32_t& of_second = of_entry[index(pairing.second)];
+    if (slot.status == Status::waiting && of_first < limits_.games_per_entry &&
+        of_second < limits_.games_per_entry &&
+        (pace_ == Pace::free_running || pairing.round <= open_round)) {
       slot.status = Status::running;
-      due.push_back(slot.pairing);
+      ++running;
+      ++of_first;
+      ++of_second;
+      due.push_back(pairing);
     }
   }
   return due;
 }
 
+void Director::drop(std::uint32_t pairing) {
+  std::erase_if(slots_, [pairing](const Slot& slot) { return slot.pairing.number == pairing; });
+}
+
 std::vector<std::uint32_t> Director::running() const {
   std::vector<std::uint32_t> numbers;
-  for (const auto& [number, slot] : slots_) {
+  for (const Slot& slot : slots_) {
     if (slot.status == Status::running) {
-      numbers.push_back(number);
+      numbers.push_back(slot.pairing.number);
     }
   }
   return numbers;
 }
 
 void Director::resume(std::uint32_t pairing) {
-  Slot& slot = slots_.at(pairing);
+  Slot& slot = slots_.at(place_of(pairing));
   if (slot.status == Status::waiting) {
     slot.status = Status::running;
   }
 }
 
 void Director::end(std::uint32_t pairing) {
-  slots_.at(pairing).status = Status::over;
+  slots_.at(place_of(pairing)).status = Status::over;
+}
+
+bool Director::is_known(std::uint32_t pairing) const {
+  return place_of(pairing) < slots_.size();
 }
 
 bool Director::is_over(std::uint32_t pairing) const {
-  return slots_.at(pairing).status == Status::over;
+  return slots_.at(place_of(pairing)).status == Status::over;
 }
 
 bool Director::all_over() const {
   return std::all_of(slots_.begin(), slots_.end(),
-                     [](const auto& slot) { return slot.second.status == Status::over; });
+                     [](const Slot& slot) { return slot.status == Status::over; });
 }
 
-bool Director::may_begin(const Pairing& pairing) const {
-  std::uint32_t running = 0;
-  std::uint32_t of_first = 0;
-  std::uint32_t of_second = 0;
-  const auto plays = [](const Pairing& match, EntryId entry) {
-    return match.first == entry || match.second == entry ? 1U : 0U;
-  };
-  for (const auto& [number, slot] : slots_) {
-    if (slot.status == Status::running) {
-      ++running;
-      of_first += plays(slot.pairing, pairing.first);
-      of_second += plays(slot.pairing, pairing.second);
-    }
-  }
-  return running < limits_.games && of_first < limits_.games_per_entry &&
-         of_second < limits_.games_per_entry &&
-         !(pace_ == Pace::by_rounds && earlier_round_goes_on(pairing.round));
-}
-
-bool Director::earlier_round_goes_on(std::uint32_t round) const {
-  return std::any_of(slots_.begin(), slots_.end(), [round](const auto& slot) {
-    return slot.second.pairing.round < round && slot.second.status != Status::over;
-  });
+std::size_t Director::place_of(std::uint32_t pairing) const {
+  const auto found = std::lower_bound(
+      slots_.begin(), slots_.end(), pairing,
+      [](const Slot& slot, std::uint32_t number) { return slot.pairing.number < number; });
+  const bool is_known = found != slots_.end() && found->pairing.number == pairing;
+  return is_known ? static_cast<std::size_t>(found - slots_.begin()) : slots_.size();
 }
 
 }  // namespace poolhall::tournament

@@ -8,8 +8,8 @@
 //   known
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
-#include <map>
 #include <vector>
 
 #include "server/tournament/round_robin.hpp"
@@ -32,8 +32,8 @@ class Director {
   Director(const std::vector<Pairing>& schedule, ConcurrencyLimits limits,
            Pace pace = Pace::free_running);
 
-  // The schedule as it is now: new pairings wait, waiting ones are replaced or, when they are not
-  // in it any more, dropped; what has begun stays.
+  // The schedule as it is now, by number: new pairings wait, waiting ones are replaced or, when
+  // they are not in it any more, dropped; what has begun stays.
   void plan(const std::vector<Pairing>& schedule);
 
   // Those that are due now and were not before, in the order of the schedule; they count as
@@ -41,7 +41,7 @@ class Director {
   [[nodiscard]] std::vector<Pairing> begin_due();
 
   // An order was taken back: as if it had never been due.
-  void drop(std::uint32_t pairing) { slots_.erase(pairing); }
+  void drop(std::uint32_t pairing);
   [[nodiscard]] std::vector<std::uint32_t> running() const;
 
   // A match is going on already, from an earlier run of the tournament.
@@ -50,7 +50,7 @@ class Director {
   // A match is over, whether it was begun here or in an earlier run of the tournament.
   void end(std::uint32_t pairing);
 
-  [[nodiscard]] bool is_known(std::uint32_t pairing) const { return slots_.contains(pairing); }
+  [[nodiscard]] bool is_known(std::uint32_t pairing) const;
   [[nodiscard]] bool is_over(std::uint32_t pairing) const;
   [[nodiscard]] bool all_over() const;
 
@@ -61,10 +61,12 @@ class Director {
     Status status = Status::waiting;
   };
 
-  [[nodiscard]] bool may_begin(const Pairing& pairing) const;
-  [[nodiscard]] bool earlier_round_goes_on(std::uint32_t round) const;
+  // In slots_, whose size for one that is not known.
+  [[nodiscard]] std::size_t place_of(std::uint32_t pairing) const;
 
-  std::map<std::uint32_t, Slot> slots_;  // by Pairing::number
+  // By Pairing::number. There may be 100,000, and whenever a match ends they are walked a few
+  // times.
+  std::vector<Slot> slots_;
   ConcurrencyLimits limits_;
   Pace pace_;
 };

@@ -75,7 +75,7 @@ Schedule schedule(const FormatSettings& format, const std::vector<EntrySpan>& fi
     case FormatKind::sprt:
       break;
   }
-  return sprt_schedule(format, field, happened);
+  return sprt_schedule(format, field, happened, drawn);
 }
 
 std::uint32_t swiss_rounds_of(std::size_t entries) {
@@ -113,6 +113,16 @@ TableRules table_rules(const FormatSettings& format, const Schedule& schedule,
   return rules;
 }
 
+namespace {
+
+bool have_results(const std::vector<Pairing>& pairings, const Happened& happened) {
+  return std::all_of(pairings.begin(), pairings.end(), [&](const Pairing& pairing) {
+    return happened.results.contains(pairing.number);
+  });
+}
+
+}  // namespace
+
 Schedule fixed_schedule(std::vector<Pairing> pairings, const std::vector<EntrySpan>& field,
                         const Happened& happened) {
   std::erase_if(pairings, [&](const Pairing& pairing) {
@@ -120,9 +130,7 @@ Schedule fixed_schedule(std::vector<Pairing> pairings, const std::vector<EntrySp
     return withdrawn && !happened.begun.contains(pairing.number);
   });
   Schedule now;
-  now.is_complete = std::all_of(pairings.begin(), pairings.end(), [&](const Pairing& pairing) {
-    return happened.results.contains(pairing.number);
-  });
+  now.is_complete = happened.results.size() >= pairings.size() && have_results(pairings, happened);
   for (const Pairing& pairing : pairings) {
     now.rounds_drawn = std::max(now.rounds_drawn, pairing.round + 1);
   }
@@ -151,14 +159,15 @@ std::vector<Pairing> gauntlet(std::size_t entries, std::size_t runners) {
 
 namespace {
 
-// The first one's scores in pairs of games with one rack that were both played.
-std::vector<double> whole_pairs(const MatchResult& result) {
+// The first entry's scores in pairs of games with one rack that were both played.
+std::vector<double> whole_pairs(std::uint32_t match, const MatchResult& result) {
+  const auto of_first_entry = [&](double score) { return match % 2 == 1 ? 1 - score : score; };
   std::vector<double> scores;
   for (std::size_t i = 0; i + 1 < result.games.size(); ++i) {
     const GameScore& one = result.games[i];
     const GameScore& two = result.games[i + 1];
     if (one.number % 2 == 0 && two.number == one.number + 1 && one.was_played && two.was_played) {
-      scores.insert(scores.end(), {one.first, two.first});
+      scores.insert(scores.end(), {of_first_entry(one.first), of_first_entry(two.first)});
     }
   }
   return scores;
@@ -167,25 +176,23 @@ std::vector<double> whole_pairs(const MatchResult& result) {
 }  // namespace
 
 Schedule sprt_schedule(const FormatSettings& format, const std::vector<EntrySpan>& field,
-                       const Happened& happened) {
+                       const Happened& happened, const Schedule& drawn) {
   const EntryId one = entry_id(0);
   const EntryId two = entry_id(1);
   Schedule now;
-  std::vector<double> scores;  // of the first entry, by game, as far as all before are over
-  std::vector<std::size_t> games_until;  // by match
-  for (std::uint32_t number = 0; number < format.rounds && happened.results.contains(number);
-       ++number) {
-    const auto pairs = whole_pairs(happened.results.at(number));
-    std::transform(pairs.begin(), pairs.end(), std::back_inserter(scores),
-                   [turned = number % 2 == 1](double score) { return turned ? 1 - score : score; });
-    games_until.push_back(scores.size());
+  ratings::SprtState state = drawn.sprt ? *drawn.sprt : ratings::sprt({}, format.sprt);
+  std::uint32_t& counted = now.sprt_matches = drawn.sprt_matches;
+  const auto is_decided = [&] { return state.verdict != ratings::SprtVerdict::undecided; };
+  for (auto result = happened.results.find(counted);
+       result != happened.results.end() && result->first == counted && counted < format.rounds &&
+       !is_decided();
+       ++result, ++counted) {
+    state = ratings::sprt(whole_pairs(counted, result->second), format.sprt, state);
   }
-  now.sprt = ratings::sprt(scores, format.sprt);
-  const bool decided = now.sprt->verdict != ratings::SprtVerdict::undecided;
-  const auto deciding =
-      std::lower_bound(games_until.begin(), games_until.end(), std::size_t{2} * now.sprt->pairs);
-  const auto needed = static_cast<std::uint32_t>(deciding - games_until.begin()) + 1;
-  for (std::uint32_t number = 0; number < (decided ? needed : format.rounds); ++number) {
+  now.sprt = state;
+  const std::uint32_t matches = is_decided() ? counted : format.rounds;
+  now.pairings.reserve(matches);
+  for (std::uint32_t number = 0; number < matches; ++number) {
     now.pairings.push_back(
         {number, number, number % 2 == 0 ? one : two, number % 2 == 0 ? two : one});
   }
@@ -194,9 +201,10 @@ Schedule sprt_schedule(const FormatSettings& format, const std::vector<EntrySpan
                   [&](const Pairing& pairing) { return !happened.begun.contains(pairing.number); });
   }
   now.rounds_drawn = format.rounds;
-  now.is_complete = std::all_of(
-      now.pairings.begin(), now.pairings.end(),
-      [&](const Pairing& pairing) { return happened.results.contains(pairing.number); });
+  now.is_complete =
+      std::all_of(now.pairings.begin(), now.pairings.end(), [&](const Pairing& pairing) {
+        return pairing.number < counted || happened.results.contains(pairing.number);
+      });
   return now;
 }
 

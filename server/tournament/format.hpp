@@ -119,15 +119,16 @@ struct Schedule {
   std::vector<BracketPlace> bracket;           // of eliminations, in the order of the tree
   std::vector<ratings::Glicko2Rating> ladder;  // by entry
   std::optional<ratings::SprtState> sprt{};
-  std::vector<SwissEntry> swiss;  // the rounds that are over, by entry
+  std::uint32_t sprt_matches = 0;  // the first so many are over and counted
+  std::vector<SwissEntry> swiss;   // the rounds that are over, by entry
 
   friend bool same_pairings(const Schedule& a, const Schedule& b) {
     return a.pairings == b.pairings && a.off == b.off;
   }
 };
 
-// `drawn`: the schedule of fewer results, whose Swiss rounds need not be paired again. It changes
-// the time that this takes and nothing else.
+// `drawn`: the schedule of fewer results, whose Swiss rounds need not be paired again and whose
+// SPRT goes on from there. It changes the time that this takes and nothing else.
 [[nodiscard]] Schedule schedule(const FormatSettings& format, const std::vector<EntrySpan>& field,
                                 const Happened& happened, const Schedule& drawn = {});
 

@@ -15,7 +15,8 @@ namespace poolhall::tournament {
                                        const std::vector<EntrySpan>& field,
                                        const Happened& happened);
 [[nodiscard]] Schedule sprt_schedule(const FormatSettings& format,
-                                     const std::vector<EntrySpan>& field, const Happened& happened);
+                                     const std::vector<EntrySpan>& field, const Happened& happened,
+                                     const Schedule& drawn);
 
 // Everybody against everybody, or the runners of a gauntlet against the rest. Who has withdrawn
 // has no matches that have not begun.

@@ -115,6 +115,13 @@ TEST(FormatProperty, SchedulesGrowEndAndAreTheSameFromTheSameResults) {
         const Schedule again = play.from_scratch();
         ASSERT_EQ(again.pairings, play.now().pairings) << name(kind);
         ASSERT_EQ(again.off, play.now().off);
+        ASSERT_EQ(again.is_complete, play.now().is_complete);
+        ASSERT_EQ(again.sprt.has_value(), kind == FormatKind::sprt);
+        if (again.sprt) {
+          ASSERT_EQ(again.sprt->verdict, play.now().sprt->verdict);
+          ASSERT_EQ(again.sprt->pairs, play.now().sprt->pairs);
+          ASSERT_EQ(again.sprt->log_likelihood_ratio, play.now().sprt->log_likelihood_ratio);
+        }
       }
       EXPECT_TRUE(play.now().is_complete) << name(kind) << ' ' << entries;
       std::set<std::uint32_t> numbers;
