@@ -125,6 +125,19 @@ void release_means(const Problem& problem, Eigen::MatrixXd& covariance) {
   }
 }
 
+// Whether each unknown has pairs enough: those of others say nothing about its games.
+bool are_enough(const std::map<std::uint64_t, Terms>& pairs, Eigen::Index unknowns) {
+  Eigen::VectorXd own = Eigen::VectorXd::Zero(unknowns);
+  for (const auto& [pair, terms] : pairs) {
+    for (const auto& [unknown, value] : terms) {
+      own[unknown] += 1;
+    }
+  }
+  return static_cast<double>(pairs.size()) >=
+             least_pairs_per_unknown * static_cast<double>(unknowns) &&
+         own.minCoeff() >= least_pairs_per_unknown;
+}
+
 // The sums of the score function over each pair; nothing unless there are pairs enough.
 std::optional<Eigen::MatrixXd> pair_scores(const Problem& problem, const Eigen::VectorXd& values) {
   std::map<std::uint64_t, Terms> sums;
@@ -146,7 +159,7 @@ std::optional<Eigen::MatrixXd> pair_scores(const Problem& problem, const Eigen::
     }
   }
   const auto pairs = static_cast<double>(sums.size());
-  if (pairs < least_pairs_per_unknown * static_cast<double>(problem.unknowns())) {
+  if (!are_enough(sums, problem.unknowns())) {
     return std::nullopt;
   }
   Eigen::MatrixXd meat = Eigen::MatrixXd::Zero(problem.unknowns(), problem.unknowns());
@@ -175,7 +188,11 @@ std::optional<Fit> maximise(const Problem& problem) {
       Eigen::MatrixXd covariance =
           factors.solve(Eigen::MatrixXd::Identity(problem.unknowns(), problem.unknowns()));
       if (const auto meat = pair_scores(problem, values + step)) {
-        return Fit{values + step, covariance * *meat * covariance};
+        const Eigen::MatrixXd over_pairs = covariance * *meat * covariance;
+        // Pairs that are all alike, as where each is split, do not tell how sure a rating is.
+        if ((over_pairs.diagonal().array() > 1e-9 * covariance.diagonal().array()).all()) {
+          return Fit{values + step, over_pairs};
+        }
       }
       release_means(problem, covariance);
       return Fit{values + step, covariance};

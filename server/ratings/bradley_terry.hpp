@@ -54,8 +54,8 @@ struct RatingTable {
 
 // `players` is how many there are; games name them by index. The intervals come from the covariance
 // over pairs (the sandwich estimator of Huber 1967 with pairs as clusters) where every game has its
-// pair and there are at least ten pairs for every unknown; else from the information matrix,
-// which takes games as independent.
+// pair, there are at least ten pairs for every unknown, each player has ten of its own, and no
+// variance is 0; else from the information matrix, which takes games as independent.
 [[nodiscard]] RatingTable bradley_terry(std::size_t players, const std::vector<RatedGame>& games);
 
 // The probability that `a` is stronger than `b`, from the difference of their ratings and its

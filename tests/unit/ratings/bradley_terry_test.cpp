@@ -114,6 +114,45 @@ TEST(BradleyTerry, WhenOnePlayerAlwaysBreaksTheAdvantageIsNotTold) {
   EXPECT_NEAR(table.players[0].rated.value().elo, 200 * std::log10(3.0), 1e-6);
 }
 
+// Two games with one rack, each breaking once; the scores are of the first.
+void add_pair(std::vector<RatedGame>& games, std::size_t first, std::size_t second, double one,
+              double two) {
+  const std::uint64_t pair = games.size();
+  games.push_back({first, second, one, 1, pair});
+  games.push_back({second, first, 1 - two, 1, pair});
+}
+
+std::vector<RatedGame> without_pairs(std::vector<RatedGame> games) {
+  for (RatedGame& game : games) {
+    game.pair.reset();
+  }
+  return games;
+}
+
+TEST(BradleyTerry, AFewPairsOfOnesOwnAreTooFewHoweverManyTheOthersHave) {
+  std::vector<RatedGame> games;
+  for (int i = 0; i < 100; ++i) {
+    add_pair(games, 0, 1, i % 3 == 0 ? 0 : 1, i % 2);
+  }
+  add_pair(games, 2, 0, 1, 0);
+  add_pair(games, 2, 1, 0, 1);
+  const RatingTable table = bradley_terry(3, games);
+  const RatingTable independent = bradley_terry(3, without_pairs(games));
+  EXPECT_EQ(table.players[2].rated.value().margin, independent.players[2].rated.value().margin);
+  EXPECT_GT(table.players[2].rated->margin, 200);
+}
+
+TEST(BradleyTerry, SplitPairsDoNotMakeARatingCertain) {
+  std::vector<RatedGame> games;
+  for (int i = 0; i < 60; ++i) {
+    add_pair(games, 0, 1, i % 2, 1 - i % 2);
+  }
+  const RatingTable table = bradley_terry(2, games);
+  EXPECT_NEAR(table.players[0].rated.value().elo, 0, 1e-6);
+  EXPECT_GT(table.players[0].rated->margin, 10);
+  EXPECT_NEAR(likelihood_of_superiority(table, 0, 1).value_or(0), 0.5, 1e-6);
+}
+
 TEST(BradleyTerry, NoGamesGiveNoRatings) {
   const RatingTable table = bradley_terry(2, {});
   EXPECT_EQ(table.players[0].status, RatingStatus::no_games);
