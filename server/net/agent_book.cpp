@@ -106,4 +106,16 @@ void AgentBook::for_each(const std::function<void(Agent&)>& visit) {
   }
 }
 
+TokenHash unclaimed(storage::AgentId agent) {
+  TokenHash hash{};
+  const std::int64_t id = storage::number(agent);
+  std::memcpy(hash.data() + hash.size() - sizeof id, &id, sizeof id);
+  return hash;
+}
+
+bool is_unclaimed(const TokenHash& hash) {
+  return std::all_of(hash.begin(), hash.end() - sizeof(std::int64_t),
+                     [](std::uint8_t byte) { return byte == 0; });
+}
+
 }  // namespace poolhall::net

@@ -51,6 +51,10 @@ struct Agent {
   [[nodiscard]] storage::AgentId id() const { return record.id; }
 };
 
+// The hash that a name is kept with for whoever registers under it; no token has it.
+[[nodiscard]] TokenHash unclaimed(storage::AgentId agent);
+[[nodiscard]] bool is_unclaimed(const TokenHash& hash);
+
 class AgentBook {
  public:
   // Adds one whose id and name are new.

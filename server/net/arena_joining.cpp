@@ -2,8 +2,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <algorithm>
-#include <cstring>
 #include <tuple>
 #include <utility>
 
@@ -20,19 +18,6 @@ namespace {
 // A token that nobody has: its owner gets another from employ().
 TokenHash nobody() {
   return hash_of(new_token());
-}
-
-// The hash of no token: the name is kept for whoever registers under it.
-TokenHash unclaimed(storage::AgentId agent) {
-  TokenHash hash{};
-  const std::int64_t id = storage::number(agent);
-  std::memcpy(hash.data() + hash.size() - sizeof id, &id, sizeof id);
-  return hash;
-}
-
-bool is_unclaimed(const TokenHash& hash) {
-  return std::all_of(hash.begin(), hash.end() - sizeof(std::int64_t),
-                     [](std::uint8_t byte) { return byte == 0; });
 }
 
 Error bad_name(const protocol::Limits& limits) {

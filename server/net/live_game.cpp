@@ -58,11 +58,19 @@ void LiveGame::start_waited_enough() {
   const bool first_here = session_of(Seat::first) != nullptr;
   const bool second_here = session_of(Seat::second) != nullptr;
   awaiting_agents_ = false;
+  const Seat to_move = game_.state().to_move;
   if (start_ == Start::fresh && first_here != second_here) {
     forfeit(first_here ? Seat::second : Seat::first);
+  } else if (start_ == Start::fresh && !first_here && has_never_registered(to_move)) {
+    forfeit(to_move);  // nobody would hear its clock
   } else {
     go_on();
   }
+}
+
+bool LiveGame::has_never_registered(Seat seat) const {
+  const Agent* agent = services_.book.find(record().agents[rules::index(seat)]);
+  return agent != nullptr && is_unclaimed(agent->record.token_hash);
 }
 
 void LiveGame::places_given() {

@@ -128,6 +128,7 @@ class LiveGame : public std::enable_shared_from_this<LiveGame> {
   void take_waiting();
   void await_agents();
   void start_waited_enough();
+  [[nodiscard]] bool has_never_registered(rules::Seat seat) const;
   [[nodiscard]] bool may_be_revealed() const;
   [[nodiscard]] bool awaits_reveals();
   void revealed(const Asker& asker, Seat seat, const storage::Expected<void>& stored);

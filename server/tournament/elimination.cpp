@@ -14,8 +14,8 @@ namespace {
 using Kind = BracketSource::Kind;
 using Sources = std::vector<BracketSource>;
 
-// A level match is played again, one with a drawn game in it once, others so often in all; then a
-// lot decides.
+// A level match is played again, one with a drawn game in it once, others so often in all, one to
+// which neither came never; then a lot decides.
 constexpr std::uint32_t attempts = 8;
 constexpr std::uint32_t drawn_attempts = 2;
 constexpr std::uint64_t lots = 0x6c6f7473;  // a sequence of its own, not that of the racks
@@ -212,6 +212,9 @@ class Elimination {
       const double difference = found->second.first_points() - found->second.second_points();
       if (difference != 0) {
         return difference > 0 ? first : second;
+      }
+      if (!found->second.was_played()) {
+        break;  // neither came
       }
       drawn += found->second.has_drawn_game() ? 1 : 0;
       std::swap(first, second);

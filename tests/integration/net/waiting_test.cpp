@@ -54,6 +54,21 @@ TEST_F(Waiting, ForOneWhoNeverRegistersEndsWithForfeits) {
   EXPECT_EQ(anna.wait_for<protocol::MatchOver>().own_points, 2);
 }
 
+// Where neither has registered no clock is waited for: the one to break forfeits.
+TEST_F(Waiting, ForTwoWhoNeverRegisterEndsWithForfeits) {
+  start();
+  order(2);
+  auto reader = storage::open_sqlite_reader(directory_ / "test.db").value();
+  for (std::int64_t id = 1; id <= 2; ++id) {
+    std::optional<storage::GameRecord> game;
+    while (!game || !game->over) {
+      game = reader->game(protocol::GameId{id}).value();
+    }
+    EXPECT_EQ(game->result->reason, rules::EndReason::forfeit);
+    EXPECT_EQ(game->result->winner, rules::other(game->breaker)) << id;
+  }
+}
+
 TEST_F(Waiting, LeavesTheNameToItsOwner) {
   limits().arrival_deadline = milliseconds{60'000};
   start();
