@@ -5,9 +5,10 @@
 //   for (const SwissPair& pair : round.pairs) start(pair.first, pair.second);
 //
 // The pairing is the one that the rules' procedure finds: the first in its order among those that
-// meet the criteria best. It is found by matchings of greatest weight (README.md). Where no
-// pairing meets the absolute criteria, as few pairs as possible meet again, and after that as few
-// as possible have the same absolute preference; the bye goes twice to nobody who can be avoided.
+// meet the criteria best. It is found by matchings of greatest weight (README.md). Somebody has
+// a second bye where only so nobody need meet again or clash in the break (C1, C3). Where even that
+// does not help, second byes are avoided first, then as few pairs as possible meet again, and after
+// that as few as possible have the same absolute preference.
 #pragma once
 
 #include <optional>
