@@ -2,10 +2,12 @@
 #include <fmt/format.h>
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <fstream>
 #include <iostream>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include "server/app/commands.hpp"
 #include "server/app/exit_codes.hpp"
@@ -33,6 +35,13 @@ int import_into(storage::Database& database, std::istream& lines, const ImportAr
   return done;
 }
 
+void remove_database(const std::string& file) {
+  for (const char* suffix : {"", "-wal", "-shm", ".lock"}) {
+    std::error_code ignored;
+    std::filesystem::remove(file + suffix, ignored);
+  }
+}
+
 int import_file(const ImportArguments& arguments) {
   std::ifstream file;
   if (arguments.file != "-") {
@@ -42,12 +51,18 @@ int import_file(const ImportArguments& arguments) {
       return wrong_input;
     }
   }
+  const bool is_there = std::filesystem::exists(arguments.database);
   auto database = storage::open_sqlite(arguments.database);
   if (!database) {
     fmt::print(stderr, "poolhall import: {}\n", database.error().reason);
     return failed;
   }
-  return import_into(**database, arguments.file == "-" ? std::cin : file, arguments);
+  const int code = import_into(**database, arguments.file == "-" ? std::cin : file, arguments);
+  database->reset();
+  if (code != done && !is_there) {
+    remove_database(arguments.database);  // made for nothing
+  }
+  return code;
 }
 
 }  // namespace

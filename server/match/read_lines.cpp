@@ -7,6 +7,7 @@
 #include "protocol/state_json.hpp"
 #include "server/match/chain.hpp"
 #include "server/match/record_lines.hpp"
+#include "server/match/secrets.hpp"
 
 namespace poolhall::match {
 namespace {
@@ -214,6 +215,10 @@ TournamentWithEntries read_tournament(const JsonNode& node) {
   what.tournament.title = node.at("title").string();
   what.tournament.status =
       node.at("status").one_of(storage::tournament_status, "a tournament's status");
+  if (!is_over(what.tournament.status))
+    node.at("status").refuse("tournament \"" + what.tournament.id + "\" is unfinished (" +
+                             std::string(name(what.tournament.status)) +
+                             "), expected one that is over");
   what.tournament.settings = node.at("settings").string();
   what.tournament.created = read_date(node.at("created"));
   for (const JsonNode& entry : node.at("entries").elements())

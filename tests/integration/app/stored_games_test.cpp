@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <sstream>
@@ -129,6 +130,11 @@ TEST_F(StoredGames, are_taken_into_another_database_or_refused_at_their_line) {
   EXPECT_EQ(broken.exit_code, 2);
   EXPECT_THAT(broken.err, HasSubstr("broken.jsonl:"));
   EXPECT_THAT(broken.err, HasSubstr("nothing was imported"));
+  for (const char* left : {"third.db", "third.db.lock", "third.db-wal", "third.db-shm"}) {
+    EXPECT_FALSE(std::filesystem::exists(at(left))) << left;
+  }
+  EXPECT_EQ(run("import " + at("broken.jsonl") + " --db " + at("other.db")).exit_code, 2);
+  EXPECT_TRUE(std::filesystem::exists(at("other.db")));
   EXPECT_EQ(run("import " + at("nowhere.jsonl") + " --db " + at("third.db")).exit_code, 2);
 }
 

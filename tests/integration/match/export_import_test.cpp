@@ -125,6 +125,10 @@ TEST_F(ExportImport, ShowsNoSecretOfAMatchThatGoesOn) {
   const auto report = import(other_, text);
   ASSERT_FALSE(report);
   EXPECT_EQ(report.error().field, "/match/seed");
+  const auto whole = import(other_, exported(file_));
+  ASSERT_FALSE(whole);
+  EXPECT_EQ(whole.error().field, "/tournament/status");
+  EXPECT_THAT(whole.error().reason, HasSubstr("tournament \"cup\" is unfinished"));
   finish_first_match();
   EXPECT_THAT(exported(file_), HasSubstr(to_hex(games[0].key)));
 }
