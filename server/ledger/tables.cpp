@@ -38,6 +38,9 @@ std::string standings_csv(const Standings& table, const Names& names) {
   for (const tournament::TieBreak tie_break : table.tie_breaks) {
     head.emplace_back(name(tie_break));
   }
+  if (table.has_ladder) {
+    head.insert(head.end(), {"ladder_rating", "ladder_deviation"});
+  }
   std::string text = csv_line(head);
   for (const StandingsRow& row : table.rows) {
     const auto& rated = row.rating.rated;
@@ -54,6 +57,10 @@ std::string standings_csv(const Standings& table, const Names& names) {
                                    optional_text(row.superiority)};
     for (const double value : row.tie_breaks) {
       cells.push_back(number_text(value));
+    }
+    if (row.ladder) {
+      cells.push_back(number_text(row.ladder->rating));
+      cells.push_back(number_text(row.ladder->deviation));
     }
     text += csv_line(cells);
   }
@@ -73,6 +80,10 @@ void write_row(JsonWriter& out, const StandingsRow& row, const Standings& table,
   }
   if (row.superiority) {
     out.key("superiority").number(*row.superiority);
+  }
+  if (row.ladder) {
+    out.key("ladder").begin_object().key("rating").number(row.ladder->rating);
+    out.key("deviation").number(row.ladder->deviation).end_object();
   }
   out.key("tie_breaks").begin_object();
   for (std::size_t i = 0; i < table.tie_breaks.size(); ++i) {
@@ -229,7 +240,8 @@ std::optional<std::string> trf_text(const std::string& id, const TournamentBook&
   if (book.format().kind != tournament::FormatKind::swiss) {
     return std::nullopt;
   }
-  return tournament::trf16({id, book.schedule().rounds}, book.names(), book.schedule());
+  return tournament::trf16({id, book.schedule().rounds}, book.names(), book.schedule(),
+                           standings(book));
 }
 
 }  // namespace poolhall::ledger

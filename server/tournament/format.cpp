@@ -91,7 +91,8 @@ std::optional<std::uint32_t> late_round(FormatKind kind, const Schedule& schedul
 
 TableRules table_rules(const FormatSettings& format, const Schedule& schedule,
                        const Happened& happened, std::vector<TieBreak> tie_breaks) {
-  TableRules rules{.tie_breaks = std::move(tie_breaks), .places = schedule.places};
+  TableRules rules{
+      .tie_breaks = std::move(tie_breaks), .places = schedule.places, .ladder = schedule.ladder};
   if (format.kind != FormatKind::swiss) {
     return rules;
   }
@@ -147,8 +148,9 @@ std::vector<Pairing> gauntlet(std::size_t entries, std::size_t runners) {
   for (std::size_t round = 0; round < others; ++round) {
     for (std::size_t runner = 0; runner < runners; ++runner) {
       const EntryId one = entry_id(runner);
-      const EntryId two = entry_id(runners + (runner + round) % others);
-      const bool runner_first = (round + runner) % 2 == 0;
+      const std::size_t other = (runner + round) % others;
+      const EntryId two = entry_id(runners + other);
+      const bool runner_first = (runner + other) % 2 == 0;  // everybody in turns, of both sides
       pairings.push_back({static_cast<std::uint32_t>(pairings.size()),
                           static_cast<std::uint32_t>(round), runner_first ? one : two,
                           runner_first ? two : one});

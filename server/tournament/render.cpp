@@ -56,7 +56,8 @@ std::string points_text(double points) {
 }
 
 std::string estimate_text(const ratings::Estimate& estimate) {
-  return fmt::format("{:+.0f} +/- {:.0f}", estimate.elo, estimate.margin);
+  const double elo = std::round(estimate.elo) + 0.0;  // of -0.2 +0, not -0
+  return fmt::format("{:+.0f} +/- {:.0f}", elo, estimate.margin);
 }
 
 std::string rating_text(const ratings::PlayerRating& rating) {
@@ -96,6 +97,10 @@ std::vector<std::string> standings_row(const StandingsRow& row, const Names& nam
                                  points_text(row.points),      fmt::format("{}", row.games()),
                                  fmt::format("{}", row.wins),  fmt::format("{}", row.losses),
                                  fmt::format("{}", row.draws), rating_text(row.rating)};
+  if (row.ladder) {
+    cells.push_back(fmt::format("{:.0f}", row.ladder->rating));
+    cells.push_back(fmt::format("{:.0f}", row.ladder->deviation));
+  }
   for (const double value : row.tie_breaks) {
     cells.push_back(points_text(value));
   }
@@ -124,7 +129,7 @@ std::string notes(const Standings& table) {
     text +=
         "Not all entries can be compared: each group of them has an Elo mean of 0 of its own.\n";
   }
-  if (unbounded) {
+  if (unbounded && !groups.empty()) {
     text += "No finite Elo: who won or lost every game against those with one.\n";
   }
   return text;
@@ -135,6 +140,9 @@ std::string notes(const Standings& table) {
 std::string standings_text(const Standings& table, const Names& names) {
   TextTable text(2);
   std::vector<std::string> head{"#", "Entry", "Points", "Games", "W", "L", "D", "Elo"};
+  if (table.has_ladder) {
+    head.insert(head.end(), {"Glicko-2", "Dev"});
+  }
   for (const TieBreak tie_break : table.tie_breaks) {
     head.emplace_back(heading(tie_break));
   }

@@ -230,9 +230,13 @@ Standings standings(std::size_t entries, const std::vector<PlayedGame>& games,
   }
   table.rows = Ranking(std::move(rows), games, rules).ranked();
   table.tie_breaks = rules.tie_breaks;
+  table.has_ladder = !rules.ladder.empty();
   const ratings::RatingTable ratings = ratings::bradley_terry(entries, rated(games));
   for (StandingsRow& row : table.rows) {
     row.rating = ratings.players[index(row.entry)];
+    if (!rules.ladder.empty()) {
+      row.ladder = rules.ladder[index(row.entry)];
+    }
   }
   for (std::size_t i = 0; i + 1 < table.rows.size(); ++i) {
     table.rows[i].superiority = ratings::likelihood_of_superiority(

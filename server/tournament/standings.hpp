@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "server/ratings/bradley_terry.hpp"
+#include "server/ratings/glicko2.hpp"
 #include "server/tournament/played_game.hpp"
 
 namespace poolhall::tournament {
@@ -35,6 +36,7 @@ struct StandingsRow {
   std::uint32_t draws = 0;
   std::vector<double> tie_breaks;  // in the declared order
   ratings::PlayerRating rating;
+  std::optional<ratings::Glicko2Rating> ladder{};  // what decides on a ladder
   // Likelihood of superiority over the next row's entry, where ratings can be compared.
   std::optional<double> superiority{};
 
@@ -48,11 +50,13 @@ struct TableRules {
   std::vector<double> points{};           // by entry, instead of those of the games; empty: those
   std::vector<std::uint32_t> unplayed{};  // by entry: rounds that count as an opponent with the
                                           // entry's own points for Buchholz; empty: none
+  std::vector<ratings::Glicko2Rating> ladder{};  // by entry, for the rows; empty: none
 };
 
 struct Standings {
   std::vector<StandingsRow> rows;  // best first; those who share a rank in the order of entry
   std::vector<TieBreak> tie_breaks;
+  bool has_ladder = false;  // each row has its rating there
   std::optional<ratings::Estimate> break_advantage;
   std::map<rules::EndReason, std::uint32_t> endings;
 };

@@ -1,7 +1,7 @@
 #include "server/tournament/trf.hpp"
 
-#include <algorithm>
-#include <numeric>
+#include <cstdint>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -40,25 +40,22 @@ double points(const SwissEntry& entry) {
   return score_before(entry, entry.rounds.size()) / 2.0;
 }
 
-std::vector<std::size_t> ranks(const std::vector<SwissEntry>& entries) {
-  std::vector<std::size_t> order(entries.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return points(entries[a]) > points(entries[b]);
-  });
-  std::vector<std::size_t> rank(entries.size());
-  for (std::size_t place = 0; place < order.size(); ++place) {
-    rank[order[place]] = place + 1;
+// By entry.
+std::vector<std::uint32_t> ranks(const Standings& standings) {
+  std::vector<std::uint32_t> ranks(standings.rows.size());
+  for (const StandingsRow& row : standings.rows) {
+    ranks[index(row.entry)] = row.rank;
   }
-  return rank;
+  return ranks;
 }
 
 }  // namespace
 
-std::string trf16(const TrfHead& head, const Names& names, const Schedule& schedule) {
+std::string trf16(const TrfHead& head, const Names& names, const Schedule& schedule,
+                  const Standings& standings) {
   std::string text = fmt::format("012 {}\n062 {}\n092 Individual: Swiss-System\n", head.name,
                                  schedule.swiss.size());
-  const std::vector<std::size_t> rank = ranks(schedule.swiss);
+  const std::vector<std::uint32_t> rank = ranks(standings);
   for (std::size_t i = 0; i < schedule.swiss.size(); ++i) {
     const SwissEntry& entry = schedule.swiss[i];
     // Columns 5-8 number, 10 sex, 11-13 title, 15-47 name, 49-52 rating, 54-56 federation, 58-68

@@ -10,6 +10,7 @@
 
 #include "server/tournament/format.hpp"
 #include "server/tournament/render.hpp"
+#include "server/tournament/standings.hpp"
 
 namespace poolhall::tournament {
 
@@ -18,8 +19,9 @@ struct TrfHead {
   std::uint32_t rounds = 0;
 };
 
-// The rounds that are over; one that goes on is left out. Lines end with '\n'; names are cut to 33
-// letters.
-[[nodiscard]] std::string trf16(const TrfHead& head, const Names& names, const Schedule& schedule);
+// The rounds that are over; one that goes on is left out. Ranks are those of the standings. Lines
+// end with '\n'; names are cut to 33 letters.
+[[nodiscard]] std::string trf16(const TrfHead& head, const Names& names, const Schedule& schedule,
+                                const Standings& standings);
 
 }  // namespace poolhall::tournament

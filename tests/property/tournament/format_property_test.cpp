@@ -341,6 +341,24 @@ TEST(GauntletProperty, RunnersMeetEveryOtherAndTheOthersNobodyElse) {
   EXPECT_EQ(met.size(), 10U);
 }
 
+TEST(GauntletProperty, EverybodyIsFirstAsOftenAsSecondOrOnceMoreOrLess) {
+  FormatSettings format;
+  format.kind = FormatKind::gauntlet;
+  for (std::size_t entries = 2; entries < 40; ++entries) {
+    for (format.runners = 1; format.runners < entries; ++format.runners) {
+      std::vector<int> lead(entries, 0);
+      for (const Pairing& pairing :
+           schedule(format, std::vector<EntrySpan>(entries), {}).pairings) {
+        ++lead[index(pairing.first)];
+        --lead[index(pairing.second)];
+      }
+      const auto [least, most] = std::minmax_element(lead.begin(), lead.end());
+      ASSERT_GE(*least, -1) << format.runners << " of " << entries;
+      ASSERT_LE(*most, 1) << format.runners << " of " << entries;
+    }
+  }
+}
+
 TEST(LadderProperty, NeighboursByRatingMeetAndWinnersRise) {
   FormatSettings format;
   format.kind = FormatKind::ladder;
@@ -357,6 +375,13 @@ TEST(LadderProperty, NeighboursByRatingMeetAndWinnersRise) {
     now = schedule(format, field, happened);
   }
   EXPECT_EQ(now.places, (std::vector<std::uint32_t>{4, 3, 2, 1, 0}));
+  const Standings table = standings(5, {}, table_rules(format, now, happened, {}));
+  ASSERT_TRUE(table.has_ladder);
+  for (const StandingsRow& row : table.rows) {
+    EXPECT_EQ(row.ladder.value().rating, now.ladder[index(row.entry)].rating);
+    EXPECT_EQ(row.ladder->deviation, now.ladder[index(row.entry)].deviation);
+  }
+  EXPECT_GT(table.rows[0].ladder->rating, table.rows[4].ladder->rating);
 }
 
 TEST(SprtSchedule, EndsWhenTheTestDecidesInTheOrderOfTheScheduleWhateverEndsFirst) {

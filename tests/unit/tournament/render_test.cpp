@@ -44,6 +44,31 @@ TEST(StandingsText, NothingPlayedYetIsATableOfZeros) {
             "1  Bob-the-Builder       0      0  0  0  0    -\n");
 }
 
+TEST(StandingsText, AnEloNearZeroHasNoMinus) {
+  Standings table = standings(2, {}, std::vector<TieBreak>{});
+  table.rows[0].rating = {ratings::RatingStatus::rated, ratings::Estimate{-0.2, 369}, 0};
+  table.break_advantage = ratings::Estimate{-1e-12, 20};
+  const std::string text = standings_text(table, names);
+  EXPECT_NE(text.find(" +0 +/- 369\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("break: +0 +/- 20 Elo"), std::string::npos) << text;
+}
+
+TEST(StandingsText, ALadderHasTheRatingsThatDecide) {
+  TableRules rules;
+  rules.places = {1, 0};
+  rules.ladder = {{1455.4, 120.6, 0.06}, {1544.6, 99.5, 0.06}};
+  EXPECT_EQ(standings_text(standings(2, {}, rules), {"Anna", "Bob"}),
+            "#  Entry  Points  Games  W  L  D  Elo  Glicko-2  Dev\n"
+            "1  Bob         0      0  0  0  0    -      1545  100\n"
+            "2  Anna        0      0  0  0  0    -      1455  121\n");
+}
+
+TEST(StandingsText, NobodyIsComparedWithThoseWhoHaveAnEloWhereNobodyHasOne) {
+  const Standings table = standings(3, {{0, 0, anna, bob, anna, rules::EndReason::eight_pocketed}},
+                                    std::vector<TieBreak>{});
+  EXPECT_EQ(standings_text(table, names).find("No finite Elo"), std::string::npos);
+}
+
 TEST(CrosstableText, ShowsPointsAndGamesInTheOrderOfTheStandings) {
   const Standings table = standings(3, games(), std::vector<TieBreak>{});
   EXPECT_EQ(crosstable_text(crosstable(3, games()), table, names),

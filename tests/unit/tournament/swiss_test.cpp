@@ -102,7 +102,9 @@ TEST(Trf, WritesTheColumnsOfFidesFormat) {
   ASSERT_EQ(drawn.pairings.size(), 1U);
   happened.results[0] = {{{0, 1, true}, {1, 0.5, true}}};
   const Schedule now = schedule(format, field, happened);
-  const std::string text = trf16({"cup", 2}, {"anna", "bert", "carl"}, now);
+  const std::string text =
+      trf16({"cup", 2}, {"anna", "bert", "carl"}, now,
+            standings(3, {}, table_rules(format, now, happened, {TieBreak::wins})));
   EXPECT_THAT(text, HasSubstr("012 cup\n"));
   EXPECT_THAT(text, HasSubstr("XXR 2\nXXC white1\n"));
   const std::string anna =
@@ -111,6 +113,36 @@ TEST(Trf, WritesTheColumnsOfFidesFormat) {
   EXPECT_THAT(text, HasSubstr(anna));
   EXPECT_EQ(anna.size(), 100U);  // 99 columns: the result stands in the last
   EXPECT_THAT(text, HasSubstr("  0000 - U\n"));
+}
+
+TEST(Trf, RanksAreThoseOfTheStandings) {
+  FormatSettings format;
+  format.kind = FormatKind::swiss;
+  format.rounds = 1;
+  const std::vector<EntrySpan> field(4);
+  Happened happened;
+  const Schedule drawn = schedule(format, field, happened);
+  std::vector<PlayedGame> games;
+  for (const Pairing& pairing : drawn.pairings) {
+    const bool drew = pairing.number == 0;  // one game each; else the first one won two
+    happened.results[pairing.number] = {{{0, 1, true}, {1, drew ? 0.0 : 1.0, true}}};
+    for (std::uint32_t number = 0; number < 2; ++number) {
+      PlayedGame game{pairing.number, number, pairing.first, pairing.second};
+      game.winner = drew && number == 1 ? pairing.second : pairing.first;
+      games.push_back(game);
+    }
+  }
+  const Schedule now = schedule(format, field, happened);
+  const Standings table = standings(4, games, table_rules(format, now, happened, {TieBreak::wins}));
+  const Names names{"anna", "bert", "carl", "dora"};
+  const std::string text = trf16({"cup", 1}, names, now, table);
+  const std::vector<std::string> ranks{"   1", "   2", "   2", "   4"};
+  for (std::size_t place = 0; place < 4; ++place) {
+    const std::size_t line =
+        text.find("001    " + std::to_string(index(table.rows[place].entry) + 1));
+    ASSERT_NE(line, std::string::npos);
+    EXPECT_EQ(text.substr(line + 85, 4), ranks[place]) << text;  // columns 86-89
+  }
 }
 
 }  // namespace
