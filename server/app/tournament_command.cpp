@@ -182,14 +182,14 @@ int play(const settings::TournamentFile& file, const settings::ServerSettings& s
 
   TournamentOutcome outcome;
   std::unique_ptr<net::TournamentDriver> driver;
-  TournamentDisplay display;
+  TournamentDisplay display(
+      [&] { server.post([&](net::MatchHost&) { display.show(driver->view()); }); });
   server.post([&](net::MatchHost& host) {
     driver = std::make_unique<net::TournamentDriver>(
         file, host, [] { return std::chrono::steady_clock::now(); });
-    driver->on_change([&](const net::TournamentView& view) {
-      outcome.view = view;
-      display.show(view);
-      if (view.over) {
+    driver->on_change([&] {
+      display.changed();
+      if (driver->is_over()) {
         server.stop();
       }
     });
@@ -199,7 +199,10 @@ int play(const settings::TournamentFile& file, const settings::ServerSettings& s
     }
   });
   const int server_exit = server.run();
-  display.close();
+  if (driver && !outcome.error) {
+    outcome.view = driver->view();
+  }
+  display.close(outcome.view);
   return report(outcome, settings.database, server_exit);
 }
 

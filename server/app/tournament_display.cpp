@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <sstream>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -68,41 +69,65 @@ void print(const std::string& text) {
 
 }  // namespace
 
-TournamentDisplay::TournamentDisplay()
-    : in_place_(is_terminal()), thread_([this](const std::stop_token& stop) { run(stop); }) {}
+TournamentDisplay::TournamentDisplay(std::function<void()> ask)
+    : in_place_(is_terminal()),
+      ask_(std::move(ask)),
+      thread_([this](const std::stop_token& stop) { run(stop); }) {}
 
 TournamentDisplay::~TournamentDisplay() {
   close();
 }
 
-void TournamentDisplay::show(const net::TournamentView& view) {
-  {
-    const std::lock_guard lock(mutex_);
-    latest_ = view;
-    is_new_ = true;
-  }
-  changed_.notify_one();
+void TournamentDisplay::changed() {
+  const std::lock_guard lock(mutex_);
+  has_changed_ = true;
 }
 
-void TournamentDisplay::close() {
+void TournamentDisplay::show(net::TournamentView view) {
+  {
+    const std::lock_guard lock(mutex_);
+    latest_ = std::move(view);
+  }
+  woken_.notify_one();
+}
+
+void TournamentDisplay::close(const std::optional<net::TournamentView>& last) {
   thread_.request_stop();
   if (thread_.joinable()) {
     thread_.join();
+    if (last && !in_place_) {
+      print_new_games(*last);
+    }
   }
 }
 
+// What is asked for when something has changed; nothing when nothing has.
+std::optional<net::TournamentView> TournamentDisplay::next_view(const std::stop_token& stop) {
+  std::unique_lock lock(mutex_);
+  if (!std::exchange(has_changed_, false)) {
+    return std::nullopt;
+  }
+  lock.unlock();
+  ask_();
+  lock.lock();
+  woken_.wait(lock, stop, [this] { return latest_.has_value(); });
+  return std::exchange(latest_, std::nullopt);
+}
+
 void TournamentDisplay::run(const std::stop_token& stop) {
+  std::optional<net::TournamentView> shown;
   while (!stop.stop_requested()) {
-    std::optional<net::TournamentView> view;
-    {
-      std::unique_lock lock(mutex_);
-      changed_.wait_for(lock, stop, redraw_interval, [this] { return is_new_; });
-      is_new_ = false;
-      view = latest_;
+    const auto began = std::chrono::steady_clock::now();
+    if (auto next = next_view(stop)) {
+      shown = std::move(next);
     }
-    if (view) {
-      draw(*view);
+    if (shown) {
+      draw(*shown);
     }
+    const auto took = std::chrono::steady_clock::now() - began;
+    std::unique_lock lock(mutex_);
+    woken_.wait_for(lock, stop, std::max<std::chrono::nanoseconds>(redraw_interval, 10 * took),
+                    [] { return false; });
   }
   erase();
 }

@@ -98,7 +98,7 @@ TournamentDriver::TournamentDriver(settings::TournamentFile file, MatchHost& hos
                  .games_per_entry = file_.settings.max_concurrent_games_per_entry},
                 pace_of(file_.settings)) {}
 
-void TournamentDriver::on_change(std::function<void(const TournamentView&)> callback) {
+void TournamentDriver::on_change(std::function<void()> callback) {
   on_change_ = std::move(callback);
 }
 
@@ -268,7 +268,7 @@ void TournamentDriver::finish() {
 
 void TournamentDriver::tell() const {
   if (on_change_) {
-    on_change_(view());
+    on_change_();
   }
 }
 

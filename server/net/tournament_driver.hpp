@@ -3,7 +3,7 @@
 // where it was. The network thread's own, like the host.
 //
 //   TournamentDriver driver{file, host, [] { return std::chrono::steady_clock::now(); }};
-//   driver.on_change([&](const TournamentView& view) { show(view); });
+//   driver.on_change([&] { show(driver.view()); });
 //   if (auto begun = driver.begin(seed); !begun) die(begun.error());
 #pragma once
 
@@ -58,14 +58,16 @@ class TournamentDriver {
  public:
   TournamentDriver(settings::TournamentFile file, MatchHost& host, std::function<SteadyTime()> now);
 
-  // After each game; replaces the callback before it.
-  void on_change(std::function<void(const TournamentView&)> callback);
+  // After each game; replaces the callback before it. It gets no view: to make one takes long where
+  // there are 100,000 games, so it is made when somebody looks.
+  void on_change(std::function<void()> callback);
 
   // `seed` is for the racks if neither the file nor an earlier run has one. The error, one line, is
   // that the database has another tournament of this name.
   [[nodiscard]] tl::expected<void, std::string> begin(std::uint64_t seed);
 
   [[nodiscard]] TournamentView view() const;
+  [[nodiscard]] bool is_over() const { return over_; }
 
  private:
   [[nodiscard]] tl::expected<void, std::string> open(std::uint64_t seed);
@@ -87,7 +89,7 @@ class TournamentDriver {
   settings::TournamentFile file_;
   MatchHost& host_;
   std::function<SteadyTime()> now_;
-  std::function<void(const TournamentView&)> on_change_;
+  std::function<void()> on_change_;
   ledger::TournamentBook book_;
   tournament::Director director_;
   std::uint64_t seed_ = 0;

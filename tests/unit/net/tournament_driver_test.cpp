@@ -111,7 +111,7 @@ class TournamentDriverTest : public testing::Test {
  protected:
   TournamentDriver& begin(const std::string& text = three_entries, std::uint64_t seed = 7) {
     driver_ = std::make_unique<TournamentDriver>(file(text), host_, [this] { return now_; });
-    driver_->on_change([this](const TournamentView& view) { view_ = view; });
+    driver_->on_change([this] { view_ = driver_->view(); });
     begun_ = driver_->begin(seed);
     return *driver_;
   }
