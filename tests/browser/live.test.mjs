@@ -78,7 +78,7 @@ test('other sites, other hosts and other topics are refused', enough, async () =
   const { http } = play.server;
   for (const [path, options, status] of [
     ['/ws/lobby', { origin: 'http://evil.example' }, 403],
-    ['/ws/lobby', { host: 'evil.example' }, 403],
+    ['/ws/lobby', { host: 'evil.example' }, 421],
     ['/ws/games/x', {}, 404],
     ['/ws/other', {}, 404],
     ['/ws/lobby', { origin: `http://${http}` }, 101],

@@ -150,12 +150,12 @@ TEST(Game, refers_a_turn_that_is_over_to_its_row) {
             ErrorCode::stale_turn);
 }
 
-TEST(Game, tells_turns_of_the_opponent_from_turns_to_come_and_turns_that_never_were) {
+TEST(Game, tells_turns_of_the_opponent_from_those_that_are_not_due) {
   Game game = game_of(quick_terms());
   EXPECT_EQ(refused(game.shot(Seat::second, break_shot(), at(1))), ErrorCode::not_your_turn);
   protocol::Shot shot = break_shot();
   shot.turn = 2;
-  EXPECT_EQ(refused(game.shot(Seat::first, shot, at(1))), ErrorCode::invalid_params);
+  EXPECT_EQ(refused(game.shot(Seat::first, shot, at(1))), ErrorCode::stale_turn);
   shot.turn = 0;
   EXPECT_EQ(refused(game.shot(Seat::first, shot, at(1))), ErrorCode::stale_turn);
   EXPECT_EQ(game.refusals(), 0U);
