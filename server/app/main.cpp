@@ -2,6 +2,7 @@
 #include <CLI/CLI.hpp>
 
 #include "server/app/commands.hpp"
+#include "server/app/exit_codes.hpp"
 
 int main(int argc, char** argv) {
   CLI::App app{"Poolhall: the tournament server for computational pool"};
@@ -11,6 +12,11 @@ int main(int argc, char** argv) {
   int exit_code = 0;
   poolhall::app::add_commands(app, exit_code);
 
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    // It prints what was wrong, or the help that was asked for.
+    return app.exit(error) == 0 ? poolhall::app::done : poolhall::app::wrong_input;
+  }
   return exit_code;
 }

@@ -195,7 +195,9 @@ void add_replay_command(CLI::App& app, int& exit_code) {
   command->add_option("--db", arguments->database, "database file")->capture_default_str();
   command->add_option("--svg", arguments->svg,
                       "write a picture of the shot, or of all shots, to this file");
-  command->add_flag("--ascii", arguments->ascii, "show the table after each turn");
+  command->add_flag("--ascii", arguments->ascii,
+                    "show the table after each turn, head at the left: o is the cue ball, A to F "
+                    "are 10 to 15, O pockets");
   command->callback([arguments, &exit_code] {
     const auto done = replay(*arguments);
     if (!done)

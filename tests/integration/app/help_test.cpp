@@ -7,6 +7,8 @@
 #include <string>
 #include <vector>
 
+#include "tests/support/run_command.hpp"
+
 namespace poolhall::app {
 namespace {
 
@@ -71,6 +73,17 @@ void expect_explained(const std::string& arguments) {
 TEST(Help, ExplainsEverySubCommandAndEveryOption) {
   EXPECT_GT(sub_commands(help_of("")).size(), 10U);
   expect_explained("");
+}
+
+// What the command line itself refuses is wrong input like any other.
+TEST(Usage, ThatIsWrongEndsWithTheCodeOfWrongInput) {
+  const std::string program = POOLHALL_PROGRAM;
+  for (const char* arguments : {"", "frobnicate", "serve --frobnicate", "bench", "simulate"}) {
+    const test_support::Ran ran = test_support::run_command(program + " " + arguments, "");
+    EXPECT_EQ(ran.exit_code, 2) << arguments;
+    EXPECT_NE(ran.err, "") << arguments;
+  }
+  EXPECT_EQ(test_support::run_command(program + " --version", "").exit_code, 0);
 }
 
 }  // namespace
