@@ -92,10 +92,11 @@ class Exhibition {
   // Each says whether the move was accepted.
   bool take(rules::Seat, const rules::Decision& decision) {
     auto next = rules::decide(state_, decision, table_, materials_);
-    if (next) {
-      state_ = *std::move(next);
+    if (!next) {
+      return false;
     }
-    return next.has_value();
+    state_ = *std::move(next);
+    return true;
   }
 
   bool take(rules::Seat seat, const client::Concede&) {

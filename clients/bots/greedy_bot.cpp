@@ -48,10 +48,10 @@ std::optional<Candidate> GreedyBot::best_shot(const client::TurnView& turn) cons
     Dice dice = dice_for(key_, turn, Stream::headings);
     const std::uint64_t spent = rehearsal.events();
     const std::uint64_t left = std::max(effort, spent) - spent;
-    auto other =
+    const auto other =
         most_valuable(all_around(turn, rehearsal, dice, spent + left / 2), rehearsal, spent + left);
     if (is_better(other, best)) {
-      best = std::move(other);
+      best = other;
     }
   }
   return best;

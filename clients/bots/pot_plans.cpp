@@ -139,8 +139,8 @@ std::vector<Point> good_places(const Position& position, const PlanSources& sour
                    places);
   }
   struct Rated {
-    Point place;
-    double value;
+    Point place{};
+    double value = 0;
   };
   std::vector<Rated> rated;
   for (const Point& place : places) {
