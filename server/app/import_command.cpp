@@ -4,13 +4,14 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iostream>
+#include <istream>
 #include <memory>
 #include <string>
 #include <system_error>
 
 #include "server/app/commands.hpp"
 #include "server/app/exit_codes.hpp"
+#include "server/app/input.hpp"
 #include "server/match/import_lines.hpp"
 #include "server/storage/sqlite_database.hpp"
 
@@ -44,12 +45,9 @@ void remove_database(const std::string& file) {
 
 int import_file(const ImportArguments& arguments) {
   std::ifstream file;
-  if (arguments.file != "-") {
-    file.open(arguments.file, std::ios::binary);
-    if (!file) {
-      fmt::print(stderr, "poolhall import: {}: cannot be read\n", arguments.file);
-      return wrong_input;
-    }
+  std::istream& lines = input_of(arguments.file, file);
+  if (!lines) {
+    return cannot_read(arguments.file, "an export");
   }
   const bool is_there = std::filesystem::exists(arguments.database);
   auto database = storage::open_sqlite(arguments.database);
@@ -57,7 +55,7 @@ int import_file(const ImportArguments& arguments) {
     fmt::print(stderr, "poolhall import: {}\n", database.error().reason);
     return failed;
   }
-  const int code = import_into(**database, arguments.file == "-" ? std::cin : file, arguments);
+  const int code = import_into(**database, lines, arguments);
   database->reset();
   if (code != done && !is_there) {
     remove_database(arguments.database);  // made for nothing

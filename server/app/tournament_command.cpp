@@ -14,7 +14,6 @@
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 
 #include <fmt/format.h>
 
@@ -25,6 +24,7 @@
 #include "server/app/tournament_display.hpp"
 #include "server/net/server.hpp"
 #include "server/net/tokens.hpp"
+#include "server/net/tournament_desk.hpp"
 #include "server/net/tournament_driver.hpp"
 #include "server/settings/server_settings.hpp"
 #include "server/settings/tournament_settings.hpp"
@@ -85,19 +85,6 @@ settings::Expected<settings::ServerSettings> server_settings(
   settings.limits.connections_per_address =
       std::max(settings.limits.connections_per_address, 2 * entries);
   return settings;
-}
-
-// A bot that does not exist would forfeit every game.
-std::optional<std::string> wrong_house_bot(const settings::TournamentSettings& tournament) {
-  const auto known = bots::house_bot_names();
-  for (const settings::EntrySettings& entry : tournament.entries) {
-    const auto* house = std::get_if<settings::HouseEntry>(&entry.player);
-    if (house != nullptr && std::find(known.begin(), known.end(), house->bot) == known.end()) {
-      return fmt::format("entry {}: house: \"{}\" came, expected one of {}", entry.name, house->bot,
-                         fmt::join(known, ", "));
-    }
-  }
-  return std::nullopt;
 }
 
 std::optional<std::string> wrong_address(const settings::ServerSettings& settings) {
@@ -212,12 +199,13 @@ int run_tournament(const RunArguments& arguments) {
   if (!file) {
     return fail(wrong_input, settings::text(file.error()));
   }
-  if (const auto wrong = wrong_house_bot(file->settings)) {
-    return fail(wrong_input, fmt::format("{}: {}", arguments.file, *wrong));
-  }
   const auto settings = server_settings(arguments, file->settings);
   if (!settings) {
     return fail(wrong_input, settings::text(settings.error()));
+  }
+  const net::HouseOffer house{bots::house_bot_names(), settings->max_house_bots};
+  if (const auto reason = net::why_not_housed(house, file->settings)) {
+    return fail(wrong_input, fmt::format("{}: {}", arguments.file, *reason));
   }
   if (const auto wrong = wrong_address(*settings)) {
     return fail(wrong_input, *wrong);

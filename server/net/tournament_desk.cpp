@@ -173,8 +173,8 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::create(const std::string&
     return refused(Kind::conflict,
                    fmt::format("there is a tournament \"{}\" with other settings", settings->name));
   }
-  if (auto reason = why_not_housed(*settings)) {
-    return refused(Kind::bad_settings, std::move(*reason));
+  if (const auto reason = why_not_housed(house_, *settings)) {
+    return refused(Kind::bad_settings, "tournament: " + *reason);
   }
   // The racks' seed is part of what is stored, so that a restart plays the same racks.
   const std::string stored =
@@ -185,24 +185,24 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::create(const std::string&
   return card;
 }
 
-std::optional<std::string> TournamentDesk::why_not_housed(
-    const settings::TournamentSettings& settings) const {
+std::optional<std::string> why_not_housed(const HouseOffer& offer,
+                                          const settings::TournamentSettings& settings) {
   std::uint32_t played_here = 0;
   for (const settings::EntrySettings& entry : settings.entries) {
     played_here += std::holds_alternative<settings::AgentEntry>(entry.player) ? 0 : 1;
     const auto* house = std::get_if<settings::HouseEntry>(&entry.player);
     if (house != nullptr &&
-        std::find(house_.bots.begin(), house_.bots.end(), house->bot) == house_.bots.end()) {
-      return fmt::format("tournament: entry \"{}\": got house = \"{}\", expected one of {}",
-                         entry.name, house->bot, fmt::join(house_.bots, ", "));
+        std::find(offer.bots.begin(), offer.bots.end(), house->bot) == offer.bots.end()) {
+      return fmt::format("entry \"{}\": got house = \"{}\", expected one of {}", entry.name,
+                         house->bot, fmt::join(offer.bots, ", "));
     }
   }
   const std::uint32_t needed = std::min(played_here, 2U);
-  if (needed > house_.most) {
+  if (needed > offer.most) {
     return fmt::format(
-        "tournament: got {} entries with house or command, a game of theirs needs {} of this "
+        "got {} entries with house or command, a game of theirs needs {} of this "
         "server's processes, expected max_house_bots >= {}, it is {}",
-        played_here, needed, needed, house_.most);
+        played_here, needed, needed, offer.most);
   }
   return std::nullopt;
 }
@@ -268,8 +268,8 @@ TournamentDesk::Result<TournamentCard> TournamentDesk::start(const std::string& 
   }
   // The server may have been started anew since, with other bots.
   if (const auto settings = settings::parse_tournament(card->settings, id)) {
-    if (auto reason = why_not_housed(*settings)) {
-      return refused(Kind::conflict, std::move(*reason));
+    if (const auto reason = why_not_housed(house_, *settings)) {
+      return refused(Kind::conflict, "tournament: " + *reason);
     }
   }
   return drive(*card);

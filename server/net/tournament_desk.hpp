@@ -38,6 +38,10 @@ struct HouseOffer {
   std::uint32_t most = 0;         // processes at a time, entries' commands too
 };
 
+// Why the house cannot play these entries: a bot that there is not, too few processes.
+[[nodiscard]] std::optional<std::string> why_not_housed(
+    const HouseOffer& offer, const settings::TournamentSettings& settings);
+
 class TournamentDesk {
  public:
   template <class T>
@@ -71,9 +75,6 @@ class TournamentDesk {
     std::unique_ptr<TournamentDriver> driver;
   };
 
-  // Why the house cannot play these entries: a bot that there is not, too few processes.
-  [[nodiscard]] std::optional<std::string> why_not_housed(
-      const settings::TournamentSettings& settings) const;
   [[nodiscard]] Result<TournamentCard> card_of(const std::string& id) const;
   void enter_all(const TournamentCard& card);
   [[nodiscard]] Result<TournamentCard> drive(const TournamentCard& card);

@@ -3,11 +3,14 @@
 
 #include <array>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
 #include <sstream>
 #include <string>
 #include <vector>
 
 #include "tests/support/run_command.hpp"
+#include "tests/support/temporary_directory.hpp"
 
 namespace poolhall::app {
 namespace {
@@ -84,6 +87,23 @@ TEST(Usage, ThatIsWrongEndsWithTheCodeOfWrongInput) {
     EXPECT_NE(ran.err, "") << arguments;
   }
   EXPECT_EQ(test_support::run_command(program + " --version", "").exit_code, 0);
+}
+
+// It would forfeit every game.
+TEST(Usage, ABotThatDoesNotExistIsRefusedBeforeItsTournament) {
+  const test_support::TemporaryDirectory folder;
+  const std::string file = (folder / "cup.toml").string();
+  std::ofstream(file)
+      << "name = \"cup\"\n[[entry]]\nhouse = \"randm\"\n[[entry]]\nhouse = \"greedy\"\n";
+  const test_support::Ran ran =
+      test_support::run_command(std::string(POOLHALL_PROGRAM) + " tournament run " + file +
+                                    " --db " + (folder / "cup.db").string(),
+                                "");
+  EXPECT_EQ(ran.exit_code, 2);
+  EXPECT_NE(ran.err.find(file + ": entry \"randm\": got house = \"randm\", expected one of"),
+            std::string::npos)
+      << ran.err;
+  EXPECT_FALSE(std::filesystem::exists(folder / "cup.db"));
 }
 
 }  // namespace
